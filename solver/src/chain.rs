@@ -1,0 +1,220 @@
+//! Topology of one dimension: particles in a row, in the order of their positions.
+//!
+//! Invariant: the order never changes. Neighbours need no list, and a particle that passes another
+//! is a numerical failure that the audit reports.
+
+use crate::scene::{Body, Boundary, Interface, Scene};
+
+/// Mirror images kept behind a wall where pairs beyond the nearest act.
+const IMAGES: usize = 16;
+
+/// Two particles seen from each other.
+#[derive(Debug, Clone, Copy)]
+pub struct Contact {
+    /// Separation `r = |c_i - c_j|`, Eq. (13) in one dimension.
+    pub r: f64,
+    /// Contact length `2 beta h`, the mean of both particles' (decision 0002).
+    pub length: f64,
+    /// Contact coordinate `zeta = r / length`, Eq. (9) in one dimension.
+    pub zeta: f64,
+    /// Whether nothing lies between them and they touch: `W` of Eq. (35).
+    pub nearest: bool,
+}
+
+/// One particle of a pair.
+#[derive(Debug, Clone, Copy)]
+pub struct Side {
+    /// Index in the chain, images included.
+    pub index: usize,
+    /// Mass `m`.
+    pub m: f64,
+    /// Contact length `2 beta h` of a pair of its kind.
+    pub l: f64,
+    /// Reference density `rho_o`.
+    pub rho_0: f64,
+    /// Density, where the scheme stores one.
+    pub rho: f64,
+    /// Internal energy per unit mass `u`.
+    pub u: f64,
+}
+
+/// What all particles of a body share.
+#[derive(Debug, Clone, Copy)]
+struct BodyRow {
+    rho_0: f64,
+    material: u16,
+    /// Bodies that are joined have the same group.
+    group: u16,
+}
+
+/// Masses, sizes and bodies of the particles, mirror images included.
+#[derive(Debug)]
+pub struct Chain {
+    m: Vec<f64>,
+    l: Vec<f64>,
+    body: Vec<u16>,
+    rows: Vec<BodyRow>,
+    walls: [Option<f64>; 2],
+    first: usize,
+    end: usize,
+    longest: f64,
+}
+
+impl Chain {
+    /// Chain of a valid scene and the initial positions. `far`: whether pairs beyond the nearest
+    /// neighbours act.
+    pub(crate) fn new(scene: &Scene, far: bool) -> (Self, Vec<f64>) {
+        let n = scene.particles();
+        let images = if far { IMAGES } else { 2 }.min(n);
+        let wall = |b| if let Boundary::Mirror(x) = b { Some(x) } else { None };
+        let walls = [wall(scene.boundaries.left), wall(scene.boundaries.right)];
+        let [before, behind] = walls.map(|w| if w.is_some() { images } else { 0 });
+
+        let total = before + n + behind;
+        let mut chain = Self {
+            m: vec![0.0; total],
+            l: vec![0.0; total],
+            body: vec![0; total],
+            rows: Vec::with_capacity(scene.bodies.len()),
+            walls,
+            first: before,
+            end: before + n,
+            longest: 0.0,
+        };
+        let mut x = vec![0.0; total];
+        let mut i = before;
+        for (k, body) in scene.bodies.iter().enumerate() {
+            chain.rows.push(chain.row(scene, k, body));
+            chain.longest = chain.longest.max(body.cell());
+            let cell_mass = chain.rows[k].rho_0 * body.cell();
+            for p in 0..body.particles {
+                let (position, share) = body.particle(p);
+                x[i] = position;
+                chain.m[i] = share * cell_mass;
+                chain.l[i] = body.cell();
+                chain.body[i] = k as u16;
+                i += 1;
+            }
+        }
+        for (image, of) in chain.images().collect::<Vec<_>>() {
+            chain.m[image] = chain.m[of];
+            chain.l[image] = chain.l[of];
+            chain.body[image] = chain.body[of];
+        }
+        (chain, x)
+    }
+
+    fn row(&self, scene: &Scene, k: usize, body: &Body) -> BodyRow {
+        // Validation guarantees that the material exists.
+        let material = scene.material_index(&body.material).unwrap_or(0);
+        let group = match (k, body.interface) {
+            (0, _) => 0,
+            (_, Interface::Joined) => self.rows[k - 1].group,
+            (_, Interface::Contact) => self.rows[k - 1].group + 1,
+        };
+        BodyRow { rho_0: scene.materials[material].density, material: material as u16, group }
+    }
+
+    /// Number of particles, images included.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.m.len()
+    }
+
+    /// Whether the chain has no particles; never, for a valid scene.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.m.is_empty()
+    }
+
+    /// Range of the particles proper.
+    #[must_use]
+    pub fn real(&self) -> std::ops::Range<usize> {
+        self.first..self.end
+    }
+
+    /// Largest contact length.
+    #[must_use]
+    pub fn longest(&self) -> f64 {
+        self.longest
+    }
+
+    /// Mass of particle `i`.
+    #[inline(always)]
+    #[must_use]
+    pub fn mass(&self, i: usize) -> f64 {
+        self.m[i]
+    }
+
+    /// Reference density of particle `i`.
+    #[inline(always)]
+    #[must_use]
+    pub fn rho_0(&self, i: usize) -> f64 {
+        self.rows[usize::from(self.body[i])].rho_0
+    }
+
+    /// Index of the material of particle `i`.
+    #[inline(always)]
+    #[must_use]
+    pub fn material(&self, i: usize) -> usize {
+        usize::from(self.rows[usize::from(self.body[i])].material)
+    }
+
+    /// Index of the body of particle `i`.
+    #[must_use]
+    pub fn body(&self, i: usize) -> usize {
+        usize::from(self.body[i])
+    }
+
+    /// Whether two particles belong to one continuous medium.
+    #[inline(always)]
+    #[must_use]
+    pub fn joined(&self, a: usize, b: usize) -> bool {
+        let (a, b) = (self.body[a], self.body[b]);
+        a == b || self.rows[usize::from(a)].group == self.rows[usize::from(b)].group
+    }
+
+    /// Particle `i` as one side of a pair.
+    #[inline(always)]
+    #[must_use]
+    pub fn side(&self, i: usize, rho: f64, u: f64) -> Side {
+        Side { index: i, m: self.m[i], l: self.l[i], rho_0: self.rho_0(i), rho, u }
+    }
+
+    /// The pair of particle `a` and a particle `b` on its right.
+    #[inline(always)]
+    #[must_use]
+    pub fn contact(&self, x: &[f64], a: usize, b: usize) -> Contact {
+        let r = x[b] - x[a];
+        let length = 0.5 * (self.l[a] + self.l[b]);
+        let zeta = r / length;
+        let nearest = b == a + 1 && (zeta < 1.0 || self.joined(a, b));
+        Contact { r, length, zeta, nearest }
+    }
+
+    /// Contact coordinates of the one or two nearest neighbours that particle `i` touches.
+    pub fn touching<'a>(&'a self, x: &'a [f64], i: usize) -> impl Iterator<Item = f64> + 'a {
+        let left = (i > 0).then(|| self.contact(x, i - 1, i));
+        let right = (i + 1 < self.len()).then(|| self.contact(x, i, i + 1));
+        left.into_iter().chain(right).filter(|c| c.nearest).map(|c| c.zeta)
+    }
+
+    /// Images and what they are images of, as pairs of indices.
+    pub fn images(&self) -> impl Iterator<Item = (usize, usize)> + 'static {
+        let (first, end, total) = (self.first, self.end, self.len());
+        let left = (0..first).map(move |k| (first - 1 - k, first + k));
+        let right = (0..total - end).map(move |k| (end + k, end - 1 - k));
+        left.chain(right)
+    }
+
+    /// Puts every image where its wall shows it: `x` mirrored, `v` reversed.
+    pub fn reflect(&self, x: &mut [f64], v: &mut [f64]) {
+        for (image, of) in self.images() {
+            let wall = self.walls[usize::from(image >= self.end)];
+            if let Some(wall) = wall {
+                x[image] = 2.0 * wall - x[of];
+                v[image] = -v[of];
+            }
+        }
+    }
+}

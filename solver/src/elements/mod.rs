@@ -1,0 +1,5 @@
+//! Elements: what carries tension, so that the particles carry compression alone.
+
+mod segment;
+
+pub use segment::{NoSolid, Segments, Solid};

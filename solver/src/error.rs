@@ -1,0 +1,122 @@
+//! What can go wrong, with the numbers that an engineer needs to find out why.
+
+use thiserror::Error;
+
+/// A scene that cannot be simulated as it stands.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[error("`{key}` is {value}, but {wanted}")]
+pub struct SceneError {
+    /// Dotted key of the offending value, as `--set` addresses it.
+    pub key: String,
+    /// The value as given.
+    pub value: String,
+    /// What would be accepted.
+    pub wanted: String,
+}
+
+impl SceneError {
+    pub(crate) fn new(key: impl Into<String>, value: impl ToString, wanted: &str) -> Self {
+        Self { key: key.into(), value: value.to_string(), wanted: wanted.to_owned() }
+    }
+}
+
+/// A numerical failure, found in the step that makes it.
+///
+/// The state of the simulation is then the one *before* that step, so that it can be saved.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum StepError {
+    /// A state variable is not a finite number.
+    #[error("{quantity} of particle {particle} is {value} at t = {time:e}")]
+    NotFinite {
+        /// Name of the variable.
+        quantity: &'static str,
+        /// Index of the particle, counted along the chain from 0.
+        particle: usize,
+        /// Time at which it was found.
+        time: f64,
+        /// The value.
+        value: f64,
+    },
+    /// The density left the positive numbers.
+    #[error("density of particle {particle} is {value:e} at t = {time:e}: must be positive")]
+    Density {
+        /// Index of the particle.
+        particle: usize,
+        /// Time at which it was found.
+        time: f64,
+        /// The density.
+        value: f64,
+    },
+    /// The internal energy fell below what the equation of state can represent.
+    #[error(
+        "internal energy of particle {particle} is {value:e} at t = {time:e}, below the floor \
+         {floor:e} of its equation of state: the heating of this method may depend on the frame"
+    )]
+    Energy {
+        /// Index of the particle.
+        particle: usize,
+        /// Time at which it was found.
+        time: f64,
+        /// Internal energy per unit mass.
+        value: f64,
+        /// Smallest value that the equation of state accepts.
+        floor: f64,
+    },
+    /// Two particles passed through each other.
+    #[error("particles {particle} and {next} crossed at t = {time:e}: separation {value:e}")]
+    Crossed {
+        /// Index of the left particle.
+        particle: usize,
+        /// Index of the right particle.
+        next: usize,
+        /// Time at which it was found.
+        time: f64,
+        /// Their separation, negative or zero.
+        value: f64,
+    },
+    /// The time step became too small to go on.
+    #[error(
+        "time step {value:e} at t = {time:e} is below {floor:e}: limited by {limiter} at \
+         particle {particle}"
+    )]
+    TimeStep {
+        /// Index of the particle that voted for the step.
+        particle: usize,
+        /// Time at which it was found.
+        time: f64,
+        /// The step.
+        value: f64,
+        /// Smallest step accepted.
+        floor: f64,
+        /// Name of the limiter.
+        limiter: &'static str,
+    },
+    /// More neighbours in range than there is room for.
+    #[error(
+        "particle {particle} has more than {room} neighbours on one side in range at t = {time:e}: \
+         the compression is too strong for pairs in contact range"
+    )]
+    Neighbours {
+        /// Index of the particle.
+        particle: usize,
+        /// Time at which it was found.
+        time: f64,
+        /// Neighbours that can be held on one side.
+        room: usize,
+    },
+}
+
+impl StepError {
+    /// Short name of the kind of failure, for records.
+    #[must_use]
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::NotFinite { .. } => "not finite",
+            Self::Density { .. } => "density",
+            Self::Energy { .. } => "internal energy",
+            Self::Crossed { .. } => "particles crossed",
+            Self::TimeStep { .. } => "time step collapsed",
+            Self::Neighbours { .. } => "too many neighbours",
+        }
+    }
+}

@@ -1,0 +1,306 @@
+//! The one pair sweep: density rates, pressure, tension, viscosity and heat of every contact.
+//!
+//! Each contact is evaluated once. Its force goes to both particles with opposite signs, and its
+//! power follows from the same numbers, so that momentum and energy balance pair by pair.
+
+use std::ops::AddAssign;
+
+use crate::chain::{Chain, Contact, Side};
+use crate::columns::{Bins, Column, REACH, Rate};
+use crate::density::DensityScheme;
+use crate::elements::Solid;
+use crate::eos::Eos;
+use crate::heat::Heat;
+use crate::method::Heating;
+use crate::physics::Physics;
+use crate::timestep::{Limiter, Vote};
+use crate::viscosity::{Closing, ViscousLaw, unexplained_slope};
+
+/// The laws of a scene: constant during a run.
+pub struct Laws<P: Physics<1>> {
+    /// Density scheme.
+    pub density: P::Density,
+    /// Equations of state, one a material.
+    pub eos: Vec<P::Eos>,
+    /// Viscosity.
+    pub viscosity: ViscousLaw,
+    /// Conduction.
+    pub heat: P::Heat,
+    /// Split of the viscous heat, Eq. (60).
+    pub heating: Heating,
+    /// Largest zeta at which pairs beyond the nearest act; zero when none do.
+    pub support: f64,
+}
+
+/// Sums over the contacts of one particle.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Tally<R> {
+    /// Force `dp/dt`, Eq. (74).
+    pub force: f64,
+    /// Power `dU/dt`, Eq. (58).
+    pub power: f64,
+    /// Coefficients of viscosity and conduction, for the time step.
+    pub damping: f64,
+    /// Density rate, Eq. (36), where the scheme integrates one.
+    pub rho_rate: R,
+}
+
+impl<R: AddAssign> AddAssign for Tally<R> {
+    #[inline(always)]
+    fn add_assign(&mut self, other: Self) {
+        self.force += other.force;
+        self.power += other.power;
+        self.damping += other.damping;
+        self.rho_rate += other.rho_rate;
+    }
+}
+
+/// What a chunk of pairs adds up to beside the particles.
+#[derive(Debug, Clone, Copy)]
+pub struct PairSums {
+    /// Pairs visited.
+    pub pairs: u64,
+    /// Power that goes into the strain energy of the segments.
+    pub strain_power: f64,
+    /// Votes of the pairs on the time step.
+    pub votes: [Vote; 2],
+    /// A particle with neighbours beyond [`REACH`] in range.
+    pub overflow: Option<usize>,
+}
+
+impl Default for PairSums {
+    fn default() -> Self {
+        let votes = [Vote::none(Limiter::Sound), Vote::none(Limiter::Closing)];
+        Self { pairs: 0, strain_power: 0.0, votes, overflow: None }
+    }
+}
+
+/// What one sweep is for. What it is not for, it does not compute.
+pub trait Pass: Send + Sync {
+    /// Whether forces are wanted.
+    const FORCE: bool;
+    /// Whether powers and density rates are wanted.
+    const RATES: bool;
+    /// Whether the pairs vote on the time step.
+    const VOTES: bool;
+}
+
+/// The sweep at the start of a step.
+pub struct Opening;
+/// The sweep at its middle, where the rates use the velocities there.
+pub struct Middle;
+/// The sweep at its middle for the forces alone.
+pub struct Forces;
+/// The sweep that turns the forces at the middle into work, with the mean velocities of the step.
+pub struct Work;
+
+impl Pass for Opening {
+    const FORCE: bool = true;
+    const RATES: bool = true;
+    const VOTES: bool = true;
+}
+impl Pass for Middle {
+    const FORCE: bool = true;
+    const RATES: bool = true;
+    const VOTES: bool = false;
+}
+impl Pass for Forces {
+    const FORCE: bool = true;
+    const RATES: bool = false;
+    const VOTES: bool = false;
+}
+impl Pass for Work {
+    const FORCE: bool = false;
+    const RATES: bool = true;
+    const VOTES: bool = false;
+}
+
+/// The state that a sweep sees.
+pub struct View<'a, C> {
+    /// Positions.
+    pub x: &'a [f64],
+    /// Velocities that the viscosity sees.
+    pub v: &'a [f64],
+    /// Velocities over which the forces do work.
+    pub drift: &'a [f64],
+    /// Internal energies per mass.
+    pub u: &'a [f64],
+    /// Densities, where stored.
+    pub rho: &'a C,
+}
+
+/// A pair of nearest neighbours and the slope of the velocity between them.
+#[derive(Clone, Copy)]
+struct Link {
+    contact: Contact,
+    /// `dv/dx`, zero where the two do not touch.
+    slope: f64,
+}
+
+/// A particle with its equation of state and sound speed.
+struct End<'a, E> {
+    side: Side,
+    eos: &'a E,
+    sound: f64,
+}
+
+/// One sweep over the pairs whose left particle is in a chunk.
+pub struct Sweep<'a, P: Physics<1>> {
+    /// The laws.
+    pub laws: &'a Laws<P>,
+    /// Topology.
+    pub chain: &'a Chain,
+    /// State.
+    pub state: View<'a, <P::Density as DensityScheme<1>>::Column>,
+}
+
+type RateOf<P> = <<P as Physics<1>>::Density as DensityScheme<1>>::Rate;
+
+impl<P: Physics<1>> Sweep<'_, P> {
+    /// Sweeps a chunk.
+    pub fn chunk<K: Pass>(&self, bins: &mut Bins<'_, Tally<RateOf<P>>>) -> PairSums {
+        let mut sums = PairSums::default();
+        let far = self.laws.support > 0.0;
+        let n = self.chain.len();
+        let (start, end) = (bins.start(), bins.end().min(n - 1));
+        if start >= end {
+            return sums;
+        }
+        let mut before = if start > 0 { self.link(start - 1).slope } else { 0.0 };
+        let mut link = self.link(start);
+        let mut left = self.end(start);
+        for i in start..end {
+            let next = (i + 2 < n).then(|| self.link(i + 1));
+            let after = next.map_or(0.0, |l| l.slope);
+            let right = self.end(i + 1);
+            let jump = if self.laws.viscosity.limited() {
+                -unexplained_slope(before, link.slope, after) * link.contact.r
+            } else {
+                self.state.v[i] - self.state.v[i + 1]
+            };
+            self.pair::<K>(&link.contact, jump, [&left, &right], bins, &mut sums);
+            if far {
+                self.beyond::<K>(&left, bins, &mut sums);
+            }
+            before = link.slope;
+            left = right;
+            if let Some(next) = next {
+                link = next;
+            }
+        }
+        sums
+    }
+
+    /// Pairs of a particle with those beyond its right neighbour.
+    fn beyond<K: Pass>(
+        &self,
+        left: &End<'_, P::Eos>,
+        bins: &mut Bins<'_, Tally<RateOf<P>>>,
+        sums: &mut PairSums,
+    ) {
+        let i = left.side.index;
+        let range = self.laws.support * self.chain.longest();
+        for j in i + 2..self.chain.len() {
+            if self.state.x[j] - self.state.x[i] >= range {
+                return;
+            }
+            if j - i >= REACH {
+                sums.overflow.get_or_insert(i);
+                return;
+            }
+            let contact = self.chain.contact(self.state.x, i, j);
+            if contact.zeta < self.laws.support {
+                let jump = self.state.v[i] - self.state.v[j];
+                self.pair::<K>(&contact, jump, [left, &self.end(j)], bins, sums);
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn link(&self, i: usize) -> Link {
+        let contact = self.chain.contact(self.state.x, i, i + 1);
+        let slope = (self.state.v[i + 1] - self.state.v[i]) / contact.r;
+        Link { contact, slope: if contact.nearest { slope } else { 0.0 } }
+    }
+
+    #[inline(always)]
+    fn end(&self, i: usize) -> End<'_, P::Eos> {
+        let u = self.state.u[i];
+        let eos = &self.laws.eos[self.chain.material(i)];
+        End { side: self.chain.side(i, self.state.rho.get(i), u), eos, sound: eos.sound_speed(u) }
+    }
+
+    /// All that two particles do to each other.
+    #[inline(always)]
+    fn pair<K: Pass>(
+        &self,
+        contact: &Contact,
+        jump: f64,
+        [i, j]: [&End<'_, P::Eos>; 2],
+        bins: &mut Bins<'_, Tally<RateOf<P>>>,
+        sums: &mut PairSums,
+    ) {
+        sums.pairs += 1;
+        let state = &self.state;
+        let (a, b) = (i.side.index, j.side.index);
+        let (row_i, row_j) =
+            (self.laws.density.row(&i.side, contact), self.laws.density.row(&j.side, contact));
+        let push_i = row_i.lever * P::Solid::carried(i.eos.pressure(row_i.rho, i.side.u));
+        let push_j = row_j.lever * P::Solid::carried(j.eos.pressure(row_j.rho, j.side.u));
+
+        let speed = state.v[a] - state.v[b];
+        let sound = [i.sound, j.sound];
+        let closing = Closing { speed, jump, rho: [row_i.rho, row_j.rho], sound };
+        let sides = [(&i.side, i.eos), (&j.side, j.eos)];
+        let viscous = self.laws.viscosity.force(contact, &closing, sides);
+        let transfer = self.laws.heat.transfer(contact, &closing, sides);
+
+        let tension = if P::Solid::RESISTS && contact.nearest && self.chain.joined(a, b) {
+            P::Solid::tension(series(i.eos.bulk(), j.eos.bulk()), contact.zeta)
+        } else {
+            0.0
+        };
+
+        let (mut on_i, mut on_j) = (Tally::default(), Tally::default());
+        if K::FORCE {
+            let force = push_i + push_j + tension + viscous.force;
+            on_i.force = -force;
+            on_j.force = force;
+        }
+        if K::RATES {
+            let approach = state.drift[a] - state.drift[b];
+            let (heat_i, heat_j) = match self.laws.heating {
+                Heating::Pair => (0.5 * viscous.force * approach, 0.5 * viscous.force * approach),
+                Heating::Printed => {
+                    (viscous.force * state.drift[a], -viscous.force * state.drift[b])
+                }
+            };
+            on_i.power = push_i * approach + heat_i;
+            on_j.power = push_j * approach + heat_j;
+            if P::Heat::CONDUCTS {
+                let flow = transfer * (i.eos.temperature(i.side.u) - j.eos.temperature(j.side.u));
+                on_i.power -= flow;
+                on_j.power += flow;
+            }
+            on_i.rho_rate = Rate::of(row_i.slope * approach);
+            on_j.rho_rate = Rate::of(row_j.slope * approach);
+            sums.strain_power += tension * approach;
+        }
+        if K::VOTES {
+            let damping = |e: &End<'_, P::Eos>| viscous.coefficient + transfer / e.eos.c_v();
+            on_i.damping = damping(i);
+            on_j.damping = damping(j);
+            let [by_sound, by_closing] = &mut sums.votes;
+            by_sound.consider(contact.r / sound[0].max(sound[1]), a);
+            by_closing.consider(contact.r / speed.abs(), a);
+        }
+        bins.add(a, on_i);
+        bins.add(b, on_j);
+    }
+}
+
+/// Stiffness of two halves of a segment in series.
+#[inline(always)]
+fn series(a: f64, b: f64) -> f64 {
+    2.0 * a * b / (a + b)
+}
