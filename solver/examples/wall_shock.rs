@@ -24,6 +24,7 @@ fn scene(preset: Preset, n: usize) -> Scene {
             to: 0.5,
             particles: n,
             layout: Layout::Centres,
+            compression: 1.0,
             interface: Interface::Joined,
             velocity: Profile::Uniform(-1.0),
             energy: Profile::Uniform(1.0),

@@ -85,13 +85,14 @@ impl Chain {
         let mut i = before;
         for (k, body) in scene.bodies.iter().enumerate() {
             chain.rows.push(chain.row(scene, k, body));
-            chain.longest = chain.longest.max(body.cell());
-            let cell_mass = chain.rows[k].rho_0 * body.cell();
+            let length = body.compression * body.cell();
+            chain.longest = chain.longest.max(length);
+            let cell_mass = chain.rows[k].rho_0 * length;
             for p in 0..body.particles {
                 let (position, share) = body.particle(p);
                 x[i] = position;
                 chain.m[i] = share * cell_mass;
-                chain.l[i] = body.cell();
+                chain.l[i] = length;
                 chain.body[i] = k as u16;
                 i += 1;
             }

@@ -141,3 +141,32 @@ impl Preset {
         }
     }
 }
+
+impl Preset {
+    /// Both presets.
+    pub const ALL: [Self; 2] = [Self::Paper, Self::Default];
+
+    /// Name, as on the command line.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Paper => "paper",
+            Self::Default => "default",
+        }
+    }
+}
+
+impl Density {
+    /// All schemes.
+    pub const ALL: [Self; 3] = [Self::Nonholonomic, Self::Kernel, Self::Hybrid];
+
+    /// Name, as on the command line.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Nonholonomic => "nonholonomic",
+            Self::Kernel => "kernel",
+            Self::Hybrid => "hybrid",
+        }
+    }
+}

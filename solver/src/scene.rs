@@ -128,6 +128,8 @@ pub struct Body {
     pub particles: usize,
     /// Where the particles sit.
     pub layout: Layout,
+    /// Initial density over the reference density of the material.
+    pub compression: f64,
     /// How it meets the body on its left; without meaning for the first.
     pub interface: Interface,
     /// Initial velocity.
@@ -311,6 +313,7 @@ impl Scene {
             };
             finite(&key("from"), body.from)?;
             finite(&key("to"), body.to)?;
+            positive(&key("compression"), body.compression)?;
             if body.to <= body.from {
                 return Err(SceneError::new(key("to"), body.to, "it must be right of `from`"));
             }

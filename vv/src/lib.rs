@@ -1,1 +1,15 @@
-//! x
+//! The harness of Whipple: cases, exact solutions, norms, claims, records and the report.
+
+pub mod cases;
+pub mod claims;
+pub mod convergence;
+pub mod exact;
+pub mod files;
+pub mod godunov;
+pub mod norms;
+pub mod plots;
+pub mod record;
+pub mod references;
+pub mod report;
+pub mod run;
+pub mod suggest;

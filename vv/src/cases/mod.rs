@@ -1,0 +1,202 @@
+//! The cases: one file each, with all its facts.
+//!
+//! A case says what is to be simulated, what is measured, and what is claimed of it. It knows
+//! nothing of files, pages or the command line.
+
+mod block_collision;
+mod einfeldt;
+mod galilean_boost;
+mod gas;
+mod heat_chain;
+mod kolsky;
+mod leblanc;
+mod noh;
+mod sod;
+mod strong_shock_tube;
+mod two_stream_noh;
+mod unequal_masses;
+mod uniform_collapse;
+mod vacuum_release;
+pub(crate) mod woodward_colella;
+
+use std::time::Duration;
+
+use whipple_solver::method::Preset;
+use whipple_solver::scene::Scene;
+
+use crate::claims::{Claim, Kind, Quantity, Wanted, Weight};
+use crate::plots::Figure;
+use crate::record::{Records, RunKey, Scheme};
+use crate::run::{Driver, Findings, RunError};
+
+/// How much is run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, clap::ValueEnum)]
+pub enum Level {
+    /// The smallest sizes: a minute.
+    Quick,
+    /// Every size that a claim needs.
+    Standard,
+    /// Everything, the largest sizes and references included.
+    Full,
+}
+
+/// What the Godunov code made of a case.
+#[derive(Debug, Clone, Default)]
+pub struct Eulerian {
+    /// Norms and fields.
+    pub findings: Findings,
+    /// Time steps.
+    pub steps: u64,
+    /// Cells advanced by a step.
+    pub cell_steps: u64,
+    /// Largest error of the energy balance over the initial energy.
+    pub energy_drift: f64,
+    /// CPU time of the stepping alone, where more than that was done.
+    pub cpu: Option<Duration>,
+}
+
+/// A problem with a known answer.
+pub trait Case: Sync {
+    /// Name on the command line.
+    fn id(&self) -> &'static str;
+
+    /// Title in the report.
+    fn title(&self) -> &'static str;
+
+    /// What the problem is and what it shows, in a few sentences.
+    fn about(&self) -> &'static str;
+
+    /// Where problem and answer come from.
+    fn source(&self) -> &'static str;
+
+    /// Variants; the first is the one that runs when none is named, and its name is empty.
+    fn variants(&self) -> &'static [&'static str] {
+        &[""]
+    }
+
+    /// Number of particles when none is given.
+    fn default_size(&self) -> usize;
+
+    /// The problem with the choices of a preset.
+    fn scene(&self, preset: Preset, variant: &str, n: usize) -> Scene;
+
+    /// Runs the scene to its end and measures.
+    ///
+    /// # Errors
+    /// A numerical failure, an interrupt, or a norm that is not a number.
+    fn measure(
+        &self,
+        scene: &Scene,
+        key: &RunKey,
+        driver: &mut Driver<'_>,
+    ) -> Result<Findings, RunError>;
+
+    /// The second opinion of the Godunov code.
+    ///
+    /// # Errors
+    /// Where there is none, or it fails.
+    fn eulerian(&self, _variant: &str, _n: usize) -> Result<Eulerian, RunError> {
+        Err(RunError::NotThere { case: self.id().into(), what: "the Godunov code".into() })
+    }
+
+    /// The runs that a level asks for.
+    fn runs(&self, level: Level) -> Vec<RunKey>;
+
+    /// What is claimed.
+    fn claims(&self) -> Vec<Claim>;
+
+    /// The norms that the report tabulates, with their titles.
+    fn tabulated(&self) -> &'static [(&'static str, &'static str)];
+
+    /// The figures of the report.
+    fn figures(&self, records: &Records) -> Vec<Figure>;
+}
+
+/// All cases, in the order of the report.
+pub const ALL: [&dyn Case; 14] = [
+    &noh::Noh,
+    &kolsky::Kolsky,
+    &uniform_collapse::CASE,
+    &sod::CASE,
+    &einfeldt::CASE,
+    &leblanc::CASE,
+    &strong_shock_tube::CASE,
+    &vacuum_release::CASE,
+    &two_stream_noh::CASE,
+    &unequal_masses::CASE,
+    &woodward_colella::CASE,
+    &galilean_boost::GalileanBoost,
+    &block_collision::BlockCollision,
+    &heat_chain::HeatChain,
+];
+
+/// The case of a name.
+#[must_use]
+pub fn find(id: &str) -> Option<&'static dyn Case> {
+    ALL.into_iter().find(|c| c.id() == id)
+}
+
+/// Both presets with their own density schemes, at these sizes.
+fn both_presets(case: &str, sizes: &[usize]) -> Vec<RunKey> {
+    Preset::ALL
+        .into_iter()
+        .flat_map(|p| sizes.iter().map(move |&n| (p, n)))
+        .map(|(p, n)| RunKey::new(case, Scheme::preset(p), n))
+        .collect()
+}
+
+/// Builds claims of one case: the fields that they share are given once.
+#[derive(Clone, Copy)]
+struct Claims {
+    case: &'static str,
+    kind: Kind,
+    weight: Weight,
+    source: &'static str,
+    in_sample: bool,
+}
+
+impl Claims {
+    const fn new(case: &'static str, kind: Kind, weight: Weight, source: &'static str) -> Self {
+        Self { case, kind, weight, source, in_sample: false }
+    }
+
+    const fn in_sample(self) -> Self {
+        Self { in_sample: true, ..self }
+    }
+
+    fn claim(self, what: impl Into<String>, quantity: Quantity, wanted: Wanted) -> Claim {
+        let Self { case, kind, weight, source, in_sample } = self;
+        Claim { case, kind, weight, what: what.into(), quantity, wanted, source, in_sample }
+    }
+}
+
+/// The claim that the compatible integrator keeps the energy, and every integrator the momentum.
+fn conservation(case: &'static str, key: &RunKey) -> Vec<Claim> {
+    let energy = Claims::new(
+        case,
+        Kind::Verification,
+        Weight::Must,
+        "round-off of sums over a run; the compatible integrator conserves total energy exactly",
+    );
+    let momentum = Claims { source: "round-off; pair forces are opposite and equal", ..energy };
+    vec![
+        energy.claim(
+            "energy drift over the run",
+            Quantity::EnergyDrift(key.clone()),
+            Wanted::AtMost(1e-12),
+        ),
+        momentum.claim(
+            "momentum drift over the run",
+            Quantity::MomentumDrift(key.clone()),
+            Wanted::AtMost(1e-12),
+        ),
+    ]
+}
+
+/// The default preset with the kernel density.
+fn kernel_default() -> Scheme {
+    Scheme::Particles {
+        preset: Preset::Default,
+        density: whipple_solver::method::Density::Kernel,
+    }
+}

@@ -1,0 +1,62 @@
+//! A shock tube with a pressure ratio of 1e5: does the method survive, and where is the shock?
+
+use super::gas::{GasProblem, Setup, Sizes, two_regions, walls};
+use super::{Claim, Claims, Kind, Quantity, Scheme, Wanted, Weight, conservation};
+use crate::exact::Gas;
+use crate::exact::riemann::Riemann;
+use crate::record::RunKey;
+use crate::run::RunError;
+use whipple_solver::method::Preset;
+
+const ID: &str = "strong-shock-tube";
+const MEMBRANE: f64 = 0.5;
+const LEFT: Gas = Gas { density: 1.0, velocity: 0.0, pressure: 1000.0, gamma: 1.4 };
+const RIGHT: Gas = Gas { pressure: 0.01, ..LEFT };
+const SIZES: &[usize] = &[100, 200, 400];
+
+/// The case.
+pub(super) const CASE: GasProblem = GasProblem {
+    id: ID,
+    title: "Strong shock tube, pressure ratio 10⁵",
+    about: "Gas at pressure 1000 against gas at 0.01 of the same density (γ = 1.4): the left half of the \
+            blast wave, and Toro's third test. The density behind the shock is six times that ahead.",
+    source: "Toro, Riemann Solvers, test 3 (states recalled, also in the Castro manual); exact Riemann solution",
+    variants: &[""],
+    sizes: Sizes { quick: &[200], standard: SIZES, drawn: 200, fine: &[] },
+    setup,
+    claims,
+    eulerian: true,
+};
+
+fn setup(_: &str) -> Result<Setup, RunError> {
+    let riemann = Riemann::new(LEFT, RIGHT)?;
+    Ok(Setup {
+        regions: two_regions((0.0, LEFT), MEMBRANE, (1.0, RIGHT)),
+        ends: walls(0.0, 1.0),
+        u_0: 0.0,
+        time: 0.012,
+        exact: Box::new(move |x, t| Ok(riemann.sample((x - MEMBRANE) / t).gas)),
+    })
+}
+
+fn claims() -> Vec<Claim> {
+    let issue = "acceptance number of the 1D study: relative L1 of density at n = 200";
+    let must = Claims::new(ID, Kind::Verification, Weight::Must, issue);
+    let at = |preset| RunKey::new(ID, Scheme::preset(preset), 200);
+    let default = at(Preset::Default);
+    let l1 = |key: RunKey| Quantity::Norm(key, "density_l1");
+    let mut out = vec![must.claim(
+        "L1 ρ, n = 200, `default`",
+        l1(default.clone()),
+        Wanted::AtMost(0.010),
+    )];
+    let limit = "printed heating (60) cools particles behind a fast contact below absolute zero";
+    let shown = Claims::new(ID, Kind::Stability, Weight::Shown, limit);
+    out.push(shown.claim(
+        "L1 ρ, n = 200, `paper`",
+        l1(at(Preset::Paper)),
+        Wanted::AtMost(0.025),
+    ));
+    out.extend(conservation(ID, &default));
+    out
+}

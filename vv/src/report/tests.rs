@@ -1,0 +1,247 @@
+//! Behaviour of whole reports.
+
+use super::*;
+use std::collections::BTreeMap;
+use std::error::Error as _;
+use std::fs;
+
+const SVG: &str = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"8\" height=\"4\">\
+                   <path d=\"M0 0h8\" stroke=\"#0072B2\"/></svg>";
+
+fn table() -> Table {
+    Table {
+        id: "norms".into(),
+        caption: "Errors of the *density*".into(),
+        columns: vec![
+            Column::text("case"),
+            Column::number("$L_1$", "kg/m³"),
+            Column {
+                align: Align::Center,
+                ..Column::text("verdict")
+            },
+        ],
+        rows: vec![
+            vec![
+                "Noh, `n = 200`".into(),
+                Cell::number(0.044_812_3, 4),
+                Cell::verdict(Status::Pass),
+            ],
+            vec![
+                "a|b, \"c\"".into(),
+                Cell::number(1.3e-15, 2).status(Status::Fail),
+                "".into(),
+            ],
+        ],
+    }
+}
+
+fn report() -> Report {
+    let figure = Block::Figure {
+        id: "noh".into(),
+        caption: "Noh & exact".into(),
+    };
+    let mut noh = Section::new("noh", "Noh", vec![Block::Table(table()), figure]);
+    let equation = Block::Equation {
+        tex: "p = (\\gamma - 1) \\rho e".into(),
+        number: Some("1".into()),
+    };
+    let callout = Block::Callout {
+        kind: Status::Warn,
+        text: "Look at `x`.".into(),
+    };
+    noh.subsections
+        .push(Section::new("gas", "Gas", vec![equation, callout]));
+    Report {
+        title: "Verification <report>".into(),
+        subtitle: "preset *default*".into(),
+        summary: Summary {
+            text: "Nearly all is well.".into(),
+            counts: vec![(Status::Pass, 1), (Status::Fail, 1)],
+        },
+        sections: vec![
+            noh,
+            Section::new(
+                "origin",
+                "Provenance",
+                vec![
+                    Block::Definitions(vec![("seed".into(), "7".into())]),
+                    Block::List(vec!["one".into(), "two".into()]),
+                ],
+            ),
+        ],
+    }
+}
+
+fn figures() -> BTreeMap<String, String> {
+    [("noh".to_owned(), SVG.to_owned())].into()
+}
+
+#[test]
+fn markdown_is_github_flavoured() {
+    insta::assert_snapshot!(markdown(&report()), @r##"
+    # Verification \<report\>
+
+    preset *default*
+
+    Nearly all is well.
+
+    **1 pass, 1 fail**
+
+    ## <a id="noh"></a>1 Noh
+
+    <a id="tab-norms"></a>**Table 1** – Errors of the *density* ([CSV](tables/norms.csv))
+
+    | case | $L_1$ / kg/m³ | verdict |
+    | :-- | --: | :-: |
+    | Noh, `n = 200` | 0.04481 | ✓ pass |
+    | a\|b, "c" | 1.3×10⁻¹⁵ ✗ fail |  |
+
+    <a id="fig-noh"></a>![Noh & exact](figures/noh.svg)
+
+    **Figure 1** – Noh & exact
+
+    ### <a id="gas"></a>1.1 Gas
+
+    $$
+    p = (\gamma - 1) \rho e \tag{1}
+    $$
+
+    > [!WARNING]
+    > Look at `x`.
+
+    ## <a id="origin"></a>2 Provenance
+
+    - **seed**: 7
+
+    - one
+    - two
+    "##);
+}
+
+#[test]
+fn csv_keeps_whole_numbers_and_verdicts() {
+    insta::assert_snapshot!(csv(&table()), @r#"
+    case,L_1 (kg/m³),L_1 verdict,verdict
+    "Noh, n = 200",0.0448123,,pass
+    "a|b, ""c""",1.3e-15,fail,
+    "#);
+}
+
+#[test]
+fn page_is_self_contained_themed_and_escaped() {
+    let page = html(&report(), &figures()).unwrap();
+    assert!(page.contains("<title>Verification &#60;report&#62;</title>"));
+    assert!(page.contains("stroke=\"var(--fig-s1,#0072b2)\""));
+    assert!(page.contains("<b>Figure 1</b> – Noh &amp; exact"));
+    assert!(page.contains("<span class=\"no\">1.1</span> Gas</h3>"));
+    assert!(page.contains("1.3×10⁻¹⁵<span class=\"word\"> fail</span>"));
+    assert!(page.contains("<math") && page.contains("<span class=\"eqno\">(1)</span>"));
+    for outside in ["<script", "<link", "@import", "src="] {
+        assert!(!page.contains(outside), "{outside}");
+    }
+    assert_eq!(page, html(&report(), &figures()).unwrap());
+}
+
+#[test]
+fn contradictions_are_errors() {
+    let with = |block: Block| Report {
+        sections: vec![Section::new("a", "A", vec![block])],
+        ..Report::default()
+    };
+    let none = BTreeMap::new();
+    let missing = with(Block::Figure {
+        id: "x".into(),
+        caption: String::new(),
+    });
+    assert!(matches!(
+        html(&missing, &none),
+        Err(ReportError::MissingFigure(_))
+    ));
+    let escaping = with(Block::Table(Table {
+        id: "../x".into(),
+        ..Table::default()
+    }));
+    assert!(matches!(html(&escaping, &none), Err(ReportError::Id(_))));
+    let ragged = with(Block::Table(Table {
+        columns: vec![],
+        ..table()
+    }));
+    assert!(matches!(html(&ragged, &none), Err(ReportError::Ragged(_))));
+    let mut twice = with(Block::Table(table()));
+    twice.sections[0].blocks.push(Block::Table(table()));
+    assert!(matches!(
+        html(&twice, &none),
+        Err(ReportError::Duplicate(_))
+    ));
+}
+
+#[test]
+fn a_new_report_replaces_the_old_and_nothing_else() {
+    let folder = tempfile::tempdir().unwrap();
+    let dir = folder.path().join("new/report");
+    let mut more = figures();
+    more.insert("old".into(), SVG.into());
+    write(&report(), &more, &dir).unwrap();
+    assert!(dir.join("figures/old.png").exists());
+    fs::write(dir.join("figures/mine.svg"), "mine").unwrap();
+    // A run that was killed left something behind.
+    fs::create_dir_all(dir.join(".report-partial/figures")).unwrap();
+    write(&report(), &figures(), &dir).unwrap();
+    assert!(!dir.join("figures/old.svg").exists() && !dir.join("figures/old.png").exists());
+    assert!(!dir.join(".report-partial").exists());
+    for file in [
+        "index.html",
+        "report.md",
+        "figures/noh.png",
+        "figures/mine.svg",
+        "tables/norms.csv",
+    ] {
+        assert!(dir.join(file).exists(), "{file}");
+    }
+}
+
+#[test]
+fn refusals_name_path_and_cause() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("file");
+    fs::write(&file, "").unwrap();
+    for dir in [file.clone(), file.join("below")] {
+        let error = write(&report(), &figures(), &dir).unwrap_err();
+        assert!(matches!(&error, ReportError::Io { .. }) && error.source().is_some());
+        assert!(error.to_string().contains(dir.to_str().unwrap()), "{error}");
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_read_only_file_system_refuses() {
+    let error = write(&report(), &figures(), "/proc/whipple".as_ref()).unwrap_err();
+    assert!(
+        error
+            .to_string()
+            .starts_with("cannot create the folder `/proc/whipple"),
+        "{error}"
+    );
+}
+
+#[test]
+fn something_in_the_way_leaves_no_index() {
+    let folder = tempfile::tempdir().unwrap();
+    let dir = folder.path();
+    write(&report(), &figures(), dir).unwrap();
+    fs::remove_file(dir.join("tables/norms.csv")).unwrap();
+    fs::create_dir_all(dir.join("tables/norms.csv/full")).unwrap();
+    let error = write(&report(), &figures(), dir).unwrap_err();
+    assert!(error.to_string().contains("norms.csv"), "{error}");
+    assert!(!dir.join("index.html").exists() && !dir.join(".report-partial").exists());
+}
+
+#[test]
+fn a_folder_that_cannot_be_staged_keeps_the_old_report() {
+    let folder = tempfile::tempdir().unwrap();
+    write(&report(), &figures(), folder.path()).unwrap();
+    let broken = [("noh".to_owned(), "no svg".to_owned())].into();
+    let error = write(&report(), &broken, folder.path()).unwrap_err();
+    assert!(matches!(error, ReportError::Picture { .. }));
+    assert!(folder.path().join("index.html").exists());
+}
