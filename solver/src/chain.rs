@@ -19,6 +19,8 @@ pub struct Contact {
     pub zeta: f64,
     /// Whether nothing lies between them and they touch: `W` of Eq. (35).
     pub nearest: bool,
+    /// Whether they are also of one continuous medium, so that they can pull.
+    pub bonded: bool,
 }
 
 /// One particle of a pair.
@@ -189,8 +191,9 @@ impl Chain {
         let r = x[b] - x[a];
         let length = 0.5 * (self.l[a] + self.l[b]);
         let zeta = r / length;
-        let nearest = b == a + 1 && (zeta < 1.0 || self.joined(a, b));
-        Contact { r, length, zeta, nearest }
+        let bonded = b == a + 1 && self.joined(a, b);
+        let nearest = bonded || (b == a + 1 && zeta < 1.0);
+        Contact { r, length, zeta, nearest, bonded }
     }
 
     /// Contact coordinates of the one or two nearest neighbours that particle `i` touches.

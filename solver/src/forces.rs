@@ -7,14 +7,14 @@ use std::ops::AddAssign;
 
 use crate::chain::{Chain, Contact, Side};
 use crate::columns::{Bins, Column, REACH, Rate};
-use crate::density::DensityScheme;
+use crate::density::{DensityScheme, Row};
 use crate::elements::Solid;
 use crate::eos::Eos;
 use crate::heat::Heat;
 use crate::method::Heating;
 use crate::physics::Physics;
 use crate::timestep::{Limiter, Vote};
-use crate::viscosity::{Closing, ViscousLaw, unexplained_slope};
+use crate::viscosity::{Closing, ViscousLaw};
 
 /// The laws of a scene: constant during a run.
 pub struct Laws<P: Physics<1>> {
@@ -129,12 +129,12 @@ pub struct View<'a, C> {
     pub rho: &'a C,
 }
 
-/// A pair of nearest neighbours and the slope of the velocity between them.
+/// A pair of nearest neighbours and the jump of the velocity between them.
 #[derive(Clone, Copy)]
 struct Link {
     contact: Contact,
-    /// `dv/dx`, zero where the two do not touch.
-    slope: f64,
+    /// Closing speed, zero where the two do not touch.
+    jump: f64,
 }
 
 /// A particle with its equation of state and sound speed.
@@ -166,23 +166,20 @@ impl<P: Physics<1>> Sweep<'_, P> {
         if start >= end {
             return sums;
         }
-        let mut before = if start > 0 { self.link(start - 1).slope } else { 0.0 };
         let mut link = self.link(start);
+        // Beyond an end the velocity goes on as it does before it.
+        let mut before = if start > 0 { self.link(start - 1).jump } else { link.jump };
         let mut left = self.end(start);
         for i in start..end {
             let next = (i + 2 < n).then(|| self.link(i + 1));
-            let after = next.map_or(0.0, |l| l.slope);
+            let after = next.map_or(link.jump, |l| l.jump);
             let right = self.end(i + 1);
-            let jump = if self.laws.viscosity.limited() {
-                -unexplained_slope(before, link.slope, after) * link.contact.r
-            } else {
-                self.state.v[i] - self.state.v[i + 1]
-            };
+            let jump = self.laws.viscosity.seen([before, link.jump, after]);
             self.pair::<K>(&link.contact, jump, [&left, &right], bins, &mut sums);
             if far {
                 self.beyond::<K>(&left, bins, &mut sums);
             }
-            before = link.slope;
+            before = link.jump;
             left = right;
             if let Some(next) = next {
                 link = next;
@@ -219,8 +216,8 @@ impl<P: Physics<1>> Sweep<'_, P> {
     #[inline(always)]
     fn link(&self, i: usize) -> Link {
         let contact = self.chain.contact(self.state.x, i, i + 1);
-        let slope = (self.state.v[i + 1] - self.state.v[i]) / contact.r;
-        Link { contact, slope: if contact.nearest { slope } else { 0.0 } }
+        let jump = if contact.nearest { self.state.v[i] - self.state.v[i + 1] } else { 0.0 };
+        Link { contact, jump }
     }
 
     #[inline(always)]
@@ -248,11 +245,10 @@ impl<P: Physics<1>> Sweep<'_, P> {
         let push_i = row_i.lever * P::Solid::carried(i.eos.pressure(row_i.rho, i.side.u));
         let push_j = row_j.lever * P::Solid::carried(j.eos.pressure(row_j.rho, j.side.u));
 
-        let speed = state.v[a] - state.v[b];
         let sound = [i.sound, j.sound];
-        let closing = Closing { speed, jump, rho: [row_i.rho, row_j.rho], sound };
+        let closing = Closing { jump, rho: [row_i.rho, row_j.rho], sound };
         let sides = [(&i.side, i.eos), (&j.side, j.eos)];
-        let viscous = self.laws.viscosity.force(contact, &closing, sides);
+        let viscous = jump * self.laws.viscosity.coefficient(contact, &closing, sides);
         let transfer = self.laws.heat.transfer(contact, &closing, sides);
 
         let tension = if P::Solid::RESISTS && contact.nearest && self.chain.joined(a, b) {
@@ -263,17 +259,15 @@ impl<P: Physics<1>> Sweep<'_, P> {
 
         let (mut on_i, mut on_j) = (Tally::default(), Tally::default());
         if K::FORCE {
-            let force = push_i + push_j + tension + viscous.force;
+            let force = push_i + push_j + tension + viscous;
             on_i.force = -force;
             on_j.force = force;
         }
         if K::RATES {
             let approach = state.drift[a] - state.drift[b];
             let (heat_i, heat_j) = match self.laws.heating {
-                Heating::Pair => (0.5 * viscous.force * approach, 0.5 * viscous.force * approach),
-                Heating::Printed => {
-                    (viscous.force * state.drift[a], -viscous.force * state.drift[b])
-                }
+                Heating::Pair => (0.5 * viscous * approach, 0.5 * viscous * approach),
+                Heating::Printed => (viscous * state.drift[a], -viscous * state.drift[b]),
             };
             on_i.power = push_i * approach + heat_i;
             on_j.power = push_j * approach + heat_j;
@@ -287,11 +281,18 @@ impl<P: Physics<1>> Sweep<'_, P> {
             sums.strain_power += tension * approach;
         }
         if K::VOTES {
-            let damping = |e: &End<'_, P::Eos>| viscous.coefficient + transfer / e.eos.c_v();
-            on_i.damping = damping(i);
-            on_j.damping = damping(j);
+            let speed = state.v[a] - state.v[b];
+            let free = Closing { jump: speed, ..closing };
+            let viscous = self.laws.viscosity.bound(contact, &free, sides);
+            let transfer = self.laws.heat.transfer(contact, &free, sides);
+            on_i.damping = viscous + transfer / i.eos.c_v();
+            on_j.damping = viscous + transfer / j.eos.c_v();
+            // The stiffness of a contact, rho c^2 / r, on its lighter particle: c / r among equals.
+            let stiff = |row: &Row, c: f64| row.rho * c * c;
+            let stiffness = 0.5 * (stiff(&row_i, sound[0]) + stiff(&row_j, sound[1]));
+            let inertia = contact.r * i.side.m.min(j.side.m);
             let [by_sound, by_closing] = &mut sums.votes;
-            by_sound.consider(contact.r / sound[0].max(sound[1]), a);
+            by_sound.consider((inertia / stiffness).sqrt(), a);
             by_closing.consider(contact.r / speed.abs(), a);
         }
         bins.add(a, on_i);

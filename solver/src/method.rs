@@ -31,7 +31,8 @@ pub enum Heating {
 pub enum Viscosity {
     /// Eqs. (51)-(53), between all converging pairs with zeta < 1.
     Pairwise,
-    /// Kuropatenko's form on the limited velocity jump of nearest neighbours (decision 0006).
+    /// On the part of the velocity jump of nearest neighbours that the jumps around it do not
+    /// explain, in both directions (decision 0006).
     Limited,
 }
 
@@ -56,6 +57,8 @@ pub enum SoundSpeed {
     Total,
     /// From the equation of state.
     Thermodynamic,
+    /// Constant, from the reference energy `u_o`: a sensitivity run for the paper's tables.
+    Reference,
 }
 
 /// How the equations are advanced in time.
@@ -83,6 +86,10 @@ pub struct Method {
     pub visc_linear: f64,
     /// Quadratic viscosity coefficient, `c_1` of Eq. (53).
     pub visc_quad: f64,
+    /// Coefficient of the limited viscosity on receding pairs, over the sound speed.
+    pub visc_expansion: f64,
+    /// Steepness of the limiter: how small a neighbouring jump still explains a pair's own.
+    pub limiter: f64,
     /// Form of the heat diffusion.
     pub conduction: Conduction,
     /// Heat diffusion coefficient, `k_o` of Eq. (57).
@@ -91,11 +98,14 @@ pub struct Method {
     pub sound_speed: SoundSpeed,
     /// Time integration.
     pub integrator: Integrator,
-    /// Fraction of each limiter's critical time step that is taken.
+    /// Time step over the harmonic sum of the limiters' own.
     pub cfl: f64,
     /// Support of the kernel in units of the particle spacing; used by the kernel scheme alone.
     pub kernel_support: f64,
 }
+
+/// Steepness of the limiter (decision 0006).
+const LIMITER: f64 = 12.0;
 
 /// A named set of choices.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
@@ -118,11 +128,13 @@ impl Preset {
                 viscosity: Viscosity::Pairwise,
                 visc_linear: 1.0,
                 visc_quad: 0.0,
+                visc_expansion: 0.0,
+                limiter: LIMITER,
                 conduction: Conduction::Linear,
                 heat_coeff: 0.1,
                 sound_speed: SoundSpeed::Total,
                 integrator: Integrator::SinglePass,
-                cfl: 0.2,
+                cfl: 0.13,
                 kernel_support: 2.0,
             },
             Self::Default => Method {
@@ -130,12 +142,14 @@ impl Preset {
                 heating: Heating::Pair,
                 viscosity: Viscosity::Limited,
                 visc_linear: 0.25,
-                visc_quad: 0.5,
+                visc_quad: 0.25,
+                visc_expansion: 1.5,
+                limiter: LIMITER,
                 conduction: Conduction::Shock,
-                heat_coeff: 2.0,
+                heat_coeff: 1.75,
                 sound_speed: SoundSpeed::Thermodynamic,
                 integrator: Integrator::Compatible,
-                cfl: 0.25,
+                cfl: 0.3,
                 kernel_support: 2.0,
             },
         }

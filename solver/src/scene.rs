@@ -382,6 +382,8 @@ impl Method {
     fn validate(&self) -> Result<(), SceneError> {
         not_negative("method.visc_linear", self.visc_linear)?;
         not_negative("method.visc_quad", self.visc_quad)?;
+        not_negative("method.visc_expansion", self.visc_expansion)?;
+        positive("method.limiter", self.limiter)?;
         not_negative("method.heat_coeff", self.heat_coeff)?;
         if !(self.cfl > 0.0 && self.cfl <= 1.0) {
             return Err(SceneError::new("method.cfl", self.cfl, "it must be in (0, 1]"));

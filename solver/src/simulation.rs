@@ -218,9 +218,9 @@ impl<P: Physics<1>> Simulation<P> {
     fn elect(&mut self, votes: &[Vote; 2], until: f64) -> Result<f64, StepError> {
         let mut damped = Vote::none(Limiter::Diffusion);
         for i in self.chain.real() {
-            damped.consider(0.5 * self.chain.mass(i) / self.tally[i].damping, i);
+            damped.consider(self.chain.mass(i) / self.tally[i].damping, i);
         }
-        let voted = votes.iter().fold(damped, |a, &b| a.min(b)).scaled(self.cfl);
+        let voted = Vote::together(votes[0].min(votes[1]), damped).scaled(self.cfl);
         if voted.dt.is_nan() || voted.dt < self.smallest_step {
             return Err(StepError::TimeStep {
                 particle: self.label(voted.particle),

@@ -65,6 +65,13 @@ impl Vote {
         if other.dt < self.dt { other } else { self }
     }
 
+    /// Two limits that act at once: half their harmonic mean, in the name of the smaller.
+    #[must_use]
+    pub fn together(self, other: Self) -> Self {
+        let dt = 1.0 / (1.0 / self.dt + 1.0 / other.dt);
+        Self { dt, ..self.min(other) }
+    }
+
     /// The vote times a safety factor.
     #[must_use]
     pub fn scaled(self, factor: f64) -> Self {

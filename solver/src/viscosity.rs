@@ -7,23 +7,13 @@ use crate::method::{Method, Viscosity};
 /// Motion of a pair and what its viscosity needs to know.
 #[derive(Debug, Clone, Copy)]
 pub struct Closing {
-    /// Closing speed `v = -dr/dt`, Eq. (52): positive when converging.
-    pub speed: f64,
-    /// The part of it that is not explained by the slopes of the neighbouring velocities.
+    /// The part of the closing speed `v = -dr/dt`, Eq. (52), that the viscosity acts on: positive
+    /// when converging.
     pub jump: f64,
     /// Densities of the two sides in this contact.
     pub rho: [f64; 2],
     /// Sound speeds of the two sides.
     pub sound: [f64; 2],
-}
-
-/// A viscous force `q`, repulsive when positive, and its coefficient `q / v` for the time step.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct Viscous {
-    /// Force between the two.
-    pub force: f64,
-    /// Its coefficient.
-    pub coefficient: f64,
 }
 
 /// The viscosity of a run.
@@ -32,11 +22,19 @@ pub struct ViscousLaw {
     form: Viscosity,
     linear: f64,
     quadratic: f64,
+    expansion: f64,
+    steepness: f64,
 }
 
 impl ViscousLaw {
     pub(crate) fn new(method: &Method) -> Self {
-        Self { form: method.viscosity, linear: method.visc_linear, quadratic: method.visc_quad }
+        Self {
+            form: method.viscosity,
+            linear: method.visc_linear,
+            quadratic: method.visc_quad,
+            expansion: method.visc_expansion,
+            steepness: method.limiter,
+        }
     }
 
     /// Largest zeta at which pairs beyond the nearest feel it.
@@ -47,71 +45,118 @@ impl ViscousLaw {
         }
     }
 
-    /// Whether it looks at the velocities around a pair.
+    /// The part of a velocity jump that the viscosity acts on, of the jumps before, of and after
+    /// the pair.
     #[inline(always)]
-    pub(crate) fn limited(&self) -> bool {
-        self.form == Viscosity::Limited
+    pub(crate) fn seen(&self, jumps: [f64; 3]) -> f64 {
+        match self.form {
+            Viscosity::Pairwise => jumps[1],
+            Viscosity::Limited => unexplained(jumps, self.steepness),
+        }
     }
 
-    /// Viscous force of a pair.
+    /// Coefficient `nu` of the viscous force `nu * jump`.
     #[inline(always)]
-    pub fn force<E: Eos>(&self, contact: &Contact, closing: &Closing, sides: [(&Side, &E); 2]) -> Viscous {
+    pub fn coefficient<E: Eos>(
+        &self,
+        contact: &Contact,
+        closing: &Closing,
+        sides: [(&Side, &E); 2],
+    ) -> f64 {
         match self.form {
             Viscosity::Pairwise => self.pairwise(contact, closing, sides),
-            Viscosity::Limited => self.kuropatenko(contact, closing, sides),
+            Viscosity::Limited if contact.nearest => {
+                if closing.jump > 0.0 {
+                    self.compression(closing, sides)
+                } else if contact.bonded {
+                    self.recession(closing)
+                } else {
+                    0.0
+                }
+            }
+            Viscosity::Limited => 0.0,
+        }
+    }
+
+    /// Largest coefficient that a pair may meet at this closing speed, for the time step. The
+    /// limiter has no say: round-off in it would reach the time step.
+    #[inline(always)]
+    pub fn bound<E: Eos>(
+        &self,
+        contact: &Contact,
+        closing: &Closing,
+        sides: [(&Side, &E); 2],
+    ) -> f64 {
+        match self.form {
+            Viscosity::Pairwise => self.pairwise(contact, closing, sides),
+            Viscosity::Limited if contact.nearest => {
+                self.compression(closing, sides).max(self.recession(closing))
+            }
+            Viscosity::Limited => 0.0,
         }
     }
 
     /// Eqs. (51)-(53) with area 1 for `V_o^(2/3)`:
     ///
-    /// `q = nu max(0, v) u(1 - zeta)`,
-    /// `nu = c_o / 2 (rho_o c + rho_o c) (1 + 2 c_1 |v| / (c + c))`.
+    /// `nu = c_o / 2 (rho_o c + rho_o c) (1 + 2 c_1 |v| / (c + c))`
     ///
-    /// Repulsive, where the signs of Eqs. (51) and (74) together attract (decision 0001).
+    /// for converging pairs with `zeta < 1`. Repulsive, where the signs of Eqs. (51) and (74)
+    /// together attract (decision 0001).
     #[inline(always)]
-    fn pairwise<E: Eos>(&self, contact: &Contact, closing: &Closing, sides: [(&Side, &E); 2]) -> Viscous {
-        if closing.speed <= 0.0 || contact.zeta >= 1.0 {
-            return Viscous::default();
+    fn pairwise<E: Eos>(
+        &self,
+        contact: &Contact,
+        closing: &Closing,
+        sides: [(&Side, &E); 2],
+    ) -> f64 {
+        if closing.jump <= 0.0 || contact.zeta >= 1.0 {
+            return 0.0;
         }
         let [c_i, c_j] = closing.sound;
         let impedance = sides[0].0.rho_0 * c_i + sides[1].0.rho_0 * c_j;
-        // nu = c_o/2 (rho c + rho c) + c_o c_1 |v| (rho c + rho c)/(c + c), which stays finite.
-        let mean_rho = if c_i + c_j > 0.0 { impedance / (c_i + c_j) } else { 0.0 };
-        let coefficient =
-            self.linear * (0.5 * impedance + self.quadratic * closing.speed * mean_rho);
-        Viscous { force: coefficient * closing.speed, coefficient }
+        if self.quadratic == 0.0 || c_i + c_j == 0.0 {
+            return 0.5 * self.linear * impedance;
+        }
+        self.linear * impedance * (0.5 + self.quadratic * closing.jump / (c_i + c_j))
     }
 
-    /// Kuropatenko's form on the limited jump `j` of the closing speed (decision 0006):
+    /// Kuropatenko's form for a converging pair with the unexplained jump `j` (decision 0006):
     ///
-    /// `q = rho j (b + sqrt(b^2 + (c_o c)^2))`, `b = c_1 s j`,
+    /// `nu = rho (b + sqrt(b^2 + (c_o c)^2))`, `b = c_1 s j`,
     ///
     /// with `s` the slope of the shock speed. Cold gas, in which `c = 0`, has viscosity too.
     #[inline(always)]
-    fn kuropatenko<E: Eos>(&self, contact: &Contact, closing: &Closing, sides: [(&Side, &E); 2]) -> Viscous {
-        if !contact.nearest || closing.jump <= 0.0 {
-            return Viscous::default();
-        }
-        let mean = |pair: [f64; 2]| 0.5 * (pair[0] + pair[1]);
-        let b = self.quadratic * mean(sides.map(|s| s.1.shock_slope())) * closing.jump;
-        let c = self.linear * mean(closing.sound);
-        let coefficient = mean(closing.rho) * (b + (b * b + c * c).sqrt());
-        Viscous { force: coefficient * closing.jump, coefficient }
+    fn compression<E: Eos>(&self, closing: &Closing, sides: [(&Side, &E); 2]) -> f64 {
+        let slope = 0.5 * (sides[0].1.shock_slope() + sides[1].1.shock_slope());
+        let b = self.quadratic * slope * closing.jump.max(0.0);
+        let c = self.linear * closing.sound[0].min(closing.sound[1]);
+        0.5 * (closing.rho[0] + closing.rho[1]) * (b + (b * b + c * c).sqrt())
+    }
+
+    /// An acoustic damper for a receding pair, `nu = c_e rho c`: it acts where the jumps around the
+    /// pair do not explain its own, which is the ringing behind a shock.
+    #[inline(always)]
+    fn recession(&self, closing: &Closing) -> f64 {
+        let rho = 0.5 * (closing.rho[0] + closing.rho[1]);
+        self.expansion * rho * closing.sound[0].min(closing.sound[1])
     }
 }
 
-/// The part of a pair's velocity slope that its neighbours' slopes do not explain, as a share of
-/// the pair's own: `1 - phi` with
+/// The part of a pair's velocity jump `d` that the jumps before and after it do not explain:
+/// `d (1 - phi)` with
 ///
-/// `phi = max(0, min((r_L + r_R) / 2, 2 r_L, 2 r_R, 1))`,
+/// `phi = min(1, B d_L d_R / ((d_L + d_R) d))`
 ///
-/// `r` the ratio of the neighbouring slope to the pair's. A linear velocity field has no jump.
-/// Written with slopes, so that nothing is divided: returns the unexplained slope.
+/// where all three have one sign, and 0 elsewhere. A linear velocity field is explained wholly, a
+/// front or a zigzag not at all.
 #[inline(always)]
 #[must_use]
-pub fn unexplained_slope(left: f64, own: f64, right: f64) -> f64 {
-    let sign = if own < 0.0 { -1.0 } else { 1.0 };
-    let (l, o, r) = (sign * left, sign * own, sign * right);
-    let phi = (0.5 * (l + r)).min(2.0 * l).min(2.0 * r).min(o).max(0.0);
-    sign * (o - phi)
+pub fn unexplained([before, own, after]: [f64; 3], steepness: f64) -> f64 {
+    let product = before * after;
+    if product > 0.0 && before * own > 0.0 {
+        let phi = steepness * product / ((before + after) * own);
+        own * (1.0 - phi.min(1.0))
+    } else {
+        own
+    }
 }

@@ -2,14 +2,19 @@
 
 pub mod cases;
 pub mod claims;
+pub mod cli;
 pub mod convergence;
+pub mod cost;
+pub mod document;
 pub mod exact;
 pub mod files;
 pub mod godunov;
 pub mod norms;
+pub mod overrides;
 pub mod plots;
 pub mod record;
 pub mod references;
 pub mod report;
 pub mod run;
 pub mod suggest;
+pub mod suite;

@@ -1,2 +1,7 @@
-//! x
-fn main() {}
+//! The program `whipple`.
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    ExitCode::from(whipple_vv::cli::main())
+}

@@ -15,6 +15,8 @@ pub struct IdealGas {
     theta_0: f64,
     /// Internal energy at which the sound speed vanishes.
     u_still: f64,
+    /// Internal energy of a constant sound speed, in place of the current one.
+    u_constant: Option<f64>,
 }
 
 impl Eos for IdealGas {
@@ -24,9 +26,10 @@ impl Eos for IdealGas {
         };
         let u_still = match sound_speed {
             SoundSpeed::Total => 0.0,
-            SoundSpeed::Thermodynamic => u_0,
+            SoundSpeed::Thermodynamic | SoundSpeed::Reference => u_0,
         };
-        Some(Self { adiabatic_index, c_v, u_0, theta_0, u_still })
+        let u_constant = (sound_speed == SoundSpeed::Reference).then_some(u_0);
+        Some(Self { adiabatic_index, c_v, u_0, theta_0, u_still, u_constant })
     }
 
     #[inline(always)]
@@ -43,7 +46,7 @@ impl Eos for IdealGas {
     /// digit; anything larger is caught by the audit.
     #[inline(always)]
     fn sound_speed(&self, u: f64) -> f64 {
-        let thermal = (u - self.u_still).max(0.0);
+        let thermal = self.u_constant.unwrap_or((u - self.u_still).max(0.0));
         (self.adiabatic_index * (self.adiabatic_index - 1.0) * thermal).sqrt()
     }
 

@@ -120,13 +120,11 @@ impl Case for BlockCollision {
         enter("right_velocity_error", (b - exact.right_velocity / speed).abs());
         enter("left_as_vibration_and_heat", 1.0 - a * a - b * b);
         enter("separation", (s.x[first] - s.x[first - 1]) / (LENGTH / first as f64) - 1.0);
-        if key.n == self.default_size() {
-            let mut series = Series::default();
-            series.0.insert("time".into(), time);
-            series.0.insert("left".into(), left);
-            series.0.insert("right".into(), right);
-            findings.history = Some(series);
-        }
+        let mut series = Series::default();
+        series.0.insert("time".into(), time);
+        series.0.insert("left".into(), left);
+        series.0.insert("right".into(), right);
+        findings.history = Some(series);
         Ok(findings)
     }
 

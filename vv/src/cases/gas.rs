@@ -285,11 +285,7 @@ impl Case for GasProblem {
         driver.advance_to(scene.stop_time)?;
         let setup = (self.setup)(&key.variant)?;
         let fields = Fields::of_particles(driver.solver().snapshot(), setup.u_0);
-        let mut findings = setup.compare(scene.stop_time, &fields)?;
-        if key.n != self.sizes.drawn {
-            findings.profile = None;
-        }
-        Ok(findings)
+        setup.compare(scene.stop_time, &fields)
     }
 
     fn eulerian(&self, variant: &str, n: usize) -> Result<Eulerian, RunError> {
@@ -302,10 +298,7 @@ impl Case for GasProblem {
         let start = cpu_time::ProcessTime::now();
         code.advance_to(setup.time)?;
         let cpu = Some(start.elapsed());
-        let mut findings = setup.compare(setup.time, &Fields::of_cells(&code))?;
-        if n != self.sizes.drawn {
-            findings.profile = None;
-        }
+        let findings = setup.compare(setup.time, &Fields::of_cells(&code))?;
         let work = code.work();
         let energy_drift = eulerian_drift(&code, before);
         Ok(Eulerian { findings, steps: work.steps, cell_steps: work.cell_steps, energy_drift, cpu })

@@ -107,13 +107,11 @@ impl Case for HeatChain {
         enter("rate_error", (rate / mode.discrete_rate() - 1.0).abs());
         enter("temperature_linf", worst / AMPLITUDE);
         enter("speed_linf", fastest);
-        if key.n == self.default_size() {
-            let mut series = Series::default();
-            series.0.insert("x".into(), s.x.clone());
-            series.0.insert("temperature".into(), s.theta.clone());
-            series.0.insert("temperature_exact".into(), (0..key.n).map(exact).collect());
-            findings.profile = Some(series);
-        }
+        let mut series = Series::default();
+        series.0.insert("x".into(), s.x.clone());
+        series.0.insert("temperature".into(), s.theta.clone());
+        series.0.insert("temperature_exact".into(), (0..key.n).map(exact).collect());
+        findings.profile = Some(series);
         Ok(findings)
     }
 

@@ -157,16 +157,18 @@ impl Case for Kolsky {
         enter("strain_residual", ((integrated - strain) / strain.max(f64::MIN_POSITIVE)).abs());
         findings.norms.retain(|_, value| value.is_finite());
 
-        if DRAWN.contains(&key.n) && key.variant != LONG {
-            let exact = history.iter().map(|&(t, _)| Ok(load.sample(0.5 * LENGTH, t)?.velocity));
-            let exact = exact.collect::<Result<Vec<f64>, RunError>>()?;
-            let mut series = Series::default();
-            series.0.insert("time_ms".into(), history.iter().map(|p| 1e3 * p.0).collect());
-            series.0.insert("velocity".into(), history.iter().map(|p| p.1).collect());
-            series.0.insert("velocity_exact".into(), exact);
-            findings.history = Some(series);
-        }
+        let exact = history.iter().map(|&(t, _)| Ok(load.sample(0.5 * LENGTH, t)?.velocity));
+        let exact = exact.collect::<Result<Vec<f64>, RunError>>()?;
+        let mut series = Series::default();
+        series.0.insert("time_ms".into(), history.iter().map(|p| 1e3 * p.0).collect());
+        series.0.insert("velocity".into(), history.iter().map(|p| p.1).collect());
+        series.0.insert("velocity_exact".into(), exact);
+        findings.history = Some(series);
         Ok(findings)
+    }
+
+    fn draws(&self, key: &RunKey) -> bool {
+        DRAWN.contains(&key.n) && key.variant != LONG
     }
 
     fn runs(&self, level: Level) -> Vec<RunKey> {

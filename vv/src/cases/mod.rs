@@ -27,6 +27,7 @@ use whipple_solver::scene::Scene;
 use crate::claims::{Claim, Kind, Quantity, Wanted, Weight};
 use crate::plots::Figure;
 use crate::record::{Records, RunKey, Scheme};
+use crate::report::Table;
 use crate::run::{Driver, Findings, RunError};
 
 /// How much is run.
@@ -99,6 +100,11 @@ pub trait Case: Sync {
         Err(RunError::NotThere { case: self.id().into(), what: "the Godunov code".into() })
     }
 
+    /// Whether a figure shows the fields or histories of a run: records of others leave them out.
+    fn draws(&self, key: &RunKey) -> bool {
+        key.n == self.default_size() && self.variants().contains(&key.variant.as_str())
+    }
+
     /// The runs that a level asks for.
     fn runs(&self, level: Level) -> Vec<RunKey>;
 
@@ -107,6 +113,11 @@ pub trait Case: Sync {
 
     /// The norms that the report tabulates, with their titles.
     fn tabulated(&self) -> &'static [(&'static str, &'static str)];
+
+    /// Tables of the report that only this case has.
+    fn extra_tables(&self, _records: &Records) -> Vec<Table> {
+        Vec::new()
+    }
 
     /// The figures of the report.
     fn figures(&self, records: &Records) -> Vec<Figure>;

@@ -1,6 +1,8 @@
 //! Noh's wall shock: the paper's first problem, with the parameters of its Table 1.
 
-use whipple_solver::method::Preset;
+use whipple_solver::method::{
+    Conduction, Density, Heating, Integrator, Method, Preset, SoundSpeed,
+};
 use whipple_solver::output::Snapshot;
 use whipple_solver::scene::{
     Body, Boundaries, Boundary, EosData, Interface, Layout, Material, Profile, Scene,
@@ -54,6 +56,57 @@ const STUDY: [(usize, f64, f64); 4] = [
     (400, 0.08485, 0.04311),
     (800, 0.06000, 0.03038),
 ];
+
+/// Choices changed one at a time, at the drawn size: what is each worth?
+const VARIANTS: &[&str] = &[
+    "",
+    "half-step",
+    "heating-printed",
+    "heating-pair",
+    "conduction-none",
+    "single-pass",
+    "viscosity-pairwise",
+    "reference-sound",
+    "nonholonomic",
+];
+
+/// A method with one choice changed.
+fn varied(method: Method, variant: &str) -> Method {
+    let mut m = method;
+    match variant {
+        "half-step" => m.cfl *= 0.5,
+        "heating-printed" => m.heating = Heating::Printed,
+        "heating-pair" => m.heating = Heating::Pair,
+        "conduction-none" => m.conduction = Conduction::None,
+        "single-pass" => m.integrator = Integrator::SinglePass,
+        "viscosity-pairwise" => {
+            let paper = Preset::Paper.method();
+            m.viscosity = paper.viscosity;
+            m.visc_linear = paper.visc_linear;
+            m.visc_quad = paper.visc_quad;
+            m.sound_speed = paper.sound_speed;
+        }
+        "reference-sound" => m.sound_speed = SoundSpeed::Reference,
+        "nonholonomic" => m.density = Density::Nonholonomic,
+        _ => {}
+    }
+    m
+}
+
+/// The variants that change something in a preset.
+fn variants_of(preset: Preset) -> &'static [&'static str] {
+    match preset {
+        Preset::Paper => &["half-step", "heating-pair", "conduction-none", "reference-sound"],
+        Preset::Default => &[
+            "half-step",
+            "heating-printed",
+            "conduction-none",
+            "single-pass",
+            "viscosity-pairwise",
+            "nonholonomic",
+        ],
+    }
+}
 
 /// Norms at one time.
 struct Errors {
@@ -160,17 +213,21 @@ impl Case for Noh {
         "paper, Table 1 and text; Noh, J. Comput. Phys. 72 (1987) 78; exact solution"
     }
 
+    fn variants(&self) -> &'static [&'static str] {
+        VARIANTS
+    }
+
     fn default_size(&self) -> usize {
         DRAWN
     }
 
-    fn scene(&self, preset: Preset, _: &str, n: usize) -> Scene {
+    fn scene(&self, preset: Preset, variant: &str, n: usize) -> Scene {
         let eos = EosData::IdealGas { adiabatic_index: GAMMA, c_v: 1.0, u_0: U_0, theta_0: THETA_0 };
         Scene {
             name: ID.into(),
             units: Units::None,
             stop_time: STOP,
-            method: preset.method(),
+            method: varied(preset.method(), variant),
             boundaries: Boundaries { left: Boundary::Mirror(0.0), right: Boundary::Free },
             materials: vec![Material { name: "gas".into(), density: 1.0, eos }],
             bodies: vec![Body {
@@ -213,11 +270,13 @@ impl Case for Noh {
             phases.add(&s.x, &s.lengths(), &errors(&s))?;
         }
         phases.enter(&mut findings)?;
-        if key.n == DRAWN {
-            let columns = [("velocity", s.v), ("density", s.rho), ("pressure", s.pressure)];
-            let [v, rho, p] = columns;
-            findings.profile = Some(profile([v, rho, p, ("temperature", s.theta)], s.x, &exact));
-        }
+        let columns = [
+            ("velocity", s.v),
+            ("density", s.rho),
+            ("pressure", s.pressure),
+            ("temperature", s.theta),
+        ];
+        findings.profile = Some(profile(columns, s.x, &exact));
         Ok(findings)
     }
 
@@ -249,16 +308,13 @@ impl Case for Noh {
 
         let mass: Vec<f64> = code.cells().map(|g| g.density * code.width()).collect();
         let mut findings = at_stop(&errors(&code, STOP), &mass)?;
-        if n == DRAWN {
-            let theta = code.cells().map(|g| THETA_0 + g.energy()).collect();
-            let columns = [
-                ("velocity", column(&code, |g| g.velocity)),
-                ("density", column(&code, |g| g.density)),
-                ("pressure", column(&code, |g| g.pressure)),
-                ("temperature", theta),
-            ];
-            findings.profile = Some(profile(columns, x.clone(), &exact));
-        }
+        let columns = [
+            ("velocity", column(&code, |g| g.velocity)),
+            ("density", column(&code, |g| g.density)),
+            ("pressure", column(&code, |g| g.pressure)),
+            ("temperature", code.cells().map(|g| THETA_0 + g.energy()).collect()),
+        ];
+        findings.profile = Some(profile(columns, x.clone(), &exact));
         let mut phases = Phases::default();
         phases.add(&x, &width, &errors(&code, STOP))?;
         // The shock passes cells at 1/3 of their size.
@@ -272,11 +328,19 @@ impl Case for Noh {
         Ok(Eulerian { findings, steps: work.steps, cell_steps: work.cell_steps, energy_drift, cpu })
     }
 
+    fn draws(&self, key: &RunKey) -> bool {
+        key.n == DRAWN && key.variant.is_empty()
+    }
+
     fn runs(&self, level: Level) -> Vec<RunKey> {
         let sizes = if level == Level::Quick { &SIZES[..2] } else { SIZES };
         let mut keys = both_presets(ID, sizes);
         for scheme in [kernel_default(), Scheme::Godunov] {
             keys.extend(sizes.iter().map(|&n| RunKey::new(ID, scheme, n)));
+        }
+        for preset in Preset::ALL {
+            let key = |v: &&str| RunKey::new(ID, Scheme::preset(preset), DRAWN).variant(v);
+            keys.extend(variants_of(preset).iter().map(key));
         }
         keys
     }

@@ -1,0 +1,288 @@
+//! The command line: where strings become types, and results become exit codes.
+
+use std::io::Write;
+use std::path::PathBuf;
+
+use clap::{Parser, Subcommand, ValueEnum};
+use whipple_solver::method::{Density, Preset};
+
+use crate::cases::Level;
+
+mod bench;
+mod list;
+mod progress;
+mod reports;
+mod run;
+
+/// Exit code when a claim failed.
+const CLAIM_FAILED: u8 = 1;
+/// Exit code of wrong use or input.
+const WRONG_USE: u8 = 2;
+/// Exit code of a numerical failure.
+const NUMERICAL_FAILURE: u8 = 3;
+/// Exit code after an interrupt.
+const INTERRUPTED: u8 = 130;
+
+/// Verification and validation of impact simulations.
+#[derive(Debug, Parser)]
+#[command(name = "whipple", version, about, long_about = None, after_help = EXAMPLES)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  whipple vv                          run every case, judge, write the report to reports/
+  whipple vv noh --level quick        one case, small sizes
+  whipple run noh --preset paper --n 400 --json
+  whipple run sod --set heating=printed --out out/sod
+
+Exit codes: 0 fine, 1 a claim failed, 2 wrong use or input, 3 numerical failure, 130 interrupted.";
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// List the cases, their variants and sizes
+    List,
+    /// Run one case and print what was measured
+    Run(RunArgs),
+    /// Run cases, judge their claims and write the report
+    Vv(VvArgs),
+    /// Redraw the report from its records, without running anything
+    Report(ReportArgs),
+    /// Measure speed and the cost of the density schemes
+    Bench(BenchArgs),
+    /// Make the reference of a case that has no exact solution
+    Reference(ReferenceArgs),
+    /// Print a completion script for a shell
+    Completions {
+        /// Shell
+        shell: clap_complete::Shell,
+    },
+}
+
+#[derive(Debug, clap::Args)]
+struct RunArgs {
+    /// Case, as `whipple list` names it
+    case: String,
+    /// Numerical choices
+    #[arg(long, value_enum, default_value_t = PresetArg::Default)]
+    preset: PresetArg,
+    /// Density scheme, if not the preset's own
+    #[arg(long, value_enum)]
+    density: Option<DensityArg>,
+    /// Number of particles
+    #[arg(long)]
+    n: Option<usize>,
+    /// Variant of the case
+    #[arg(long, default_value = "")]
+    variant: String,
+    /// Change one value of the scene, such as heating=pair (repeatable)
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    sets: Vec<String>,
+    /// Run the Eulerian Godunov code on the case instead
+    #[arg(long, conflicts_with_all = ["preset", "density", "sets"])]
+    godunov: bool,
+    /// Threads
+    #[arg(long, default_value_t = 1)]
+    threads: usize,
+    /// Folder for the record, the scene and the fields as CSV
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Print one JSON object on standard output
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Debug, clap::Args)]
+struct VvArgs {
+    /// Cases; all when none is named
+    cases: Vec<String>,
+    /// How much to run
+    #[arg(long, value_enum, default_value_t = Level::Standard)]
+    level: Level,
+    /// Folder of the report
+    #[arg(long, value_name = "DIR", default_value = "reports")]
+    out: PathBuf,
+}
+
+#[derive(Debug, clap::Args)]
+struct ReportArgs {
+    /// Folder of the report, with its records
+    #[arg(long, value_name = "DIR", default_value = "reports")]
+    out: PathBuf,
+    /// Write nothing: compare with the report that is there, exit 1 if it differs
+    #[arg(long)]
+    check: bool,
+}
+
+#[derive(Debug, clap::Args)]
+struct BenchArgs {
+    /// Particles
+    #[arg(long, default_value_t = 10_000)]
+    n: usize,
+    /// A/B/B/A rounds
+    #[arg(long, default_value_t = 10)]
+    rounds: usize,
+}
+
+#[derive(Debug, clap::Args)]
+struct ReferenceArgs {
+    /// File to write
+    #[arg(long, value_name = "FILE", default_value = crate::cases::woodward_colella::REFERENCE_FILE)]
+    out: PathBuf,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum PresetArg {
+    /// Reproduces the paper's tables
+    Paper,
+    /// Everything else
+    Default,
+}
+
+impl From<PresetArg> for Preset {
+    fn from(arg: PresetArg) -> Self {
+        match arg {
+            PresetArg::Paper => Self::Paper,
+            PresetArg::Default => Self::Default,
+        }
+    }
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum DensityArg {
+    /// Integrated from contact kinematics: the paper's
+    Nonholonomic,
+    /// Summed over a kernel
+    Kernel,
+    /// From the segments between neighbours
+    Hybrid,
+}
+
+impl From<DensityArg> for Density {
+    fn from(arg: DensityArg) -> Self {
+        match arg {
+            DensityArg::Nonholonomic => Self::Nonholonomic,
+            DensityArg::Kernel => Self::Kernel,
+            DensityArg::Hybrid => Self::Hybrid,
+        }
+    }
+}
+
+/// How a command ended, if not well.
+#[derive(Debug)]
+struct Failure {
+    code: u8,
+    message: String,
+}
+
+impl Failure {
+    fn usage(message: impl std::fmt::Display) -> Self {
+        Self { code: WRONG_USE, message: message.to_string() }
+    }
+}
+
+impl From<crate::run::RunError> for Failure {
+    fn from(error: crate::run::RunError) -> Self {
+        use crate::run::RunError as E;
+        let code = match error {
+            E::Interrupted => INTERRUPTED,
+            E::Step(_) | E::Norm(_) | E::Godunov(_) => NUMERICAL_FAILURE,
+            E::Scene(_) | E::Reference(_) | E::NotThere { .. } => WRONG_USE,
+        };
+        Self { code, message: error.to_string() }
+    }
+}
+
+impl From<crate::suite::SuiteError> for Failure {
+    fn from(error: crate::suite::SuiteError) -> Self {
+        match error {
+            crate::suite::SuiteError::Run { key, source } => {
+                let inner = Self::from(source);
+                Self { code: inner.code, message: format!("{key}: {}", inner.message) }
+            }
+            other => Self::usage(other),
+        }
+    }
+}
+
+impl From<crate::files::FileError> for Failure {
+    fn from(error: crate::files::FileError) -> Self {
+        Self::usage(error)
+    }
+}
+
+impl From<crate::record::RecordError> for Failure {
+    fn from(error: crate::record::RecordError) -> Self {
+        Self::usage(error)
+    }
+}
+
+/// Runs the program and returns its exit code.
+#[must_use]
+pub fn main() -> u8 {
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) => {
+            let code = if error.use_stderr() { WRONG_USE } else { 0 };
+            // Nothing can be done about a closed terminal.
+            let _ = error.print();
+            return code;
+        }
+    };
+    let ended = match cli.command {
+        Command::List => list::list(),
+        Command::Run(args) => run::run(&args),
+        Command::Vv(args) => reports::vv(&args),
+        Command::Report(args) => reports::report(&args),
+        Command::Bench(args) => bench::bench(&args),
+        Command::Reference(args) => reports::reference(&args),
+        Command::Completions { shell } => list::completions(shell),
+    };
+    match ended {
+        Ok(code) => code,
+        Err(failure) => {
+            say(&format!("error: {}", failure.message));
+            failure.code
+        }
+    }
+}
+
+/// Prints results. A reader that has gone away is no error.
+fn print(text: &str) -> Result<(), Failure> {
+    let mut out = std::io::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
+            Err(Failure::usage(format!("cannot write to standard output: {error}")))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Prints a message.
+fn say(text: &str) {
+    // There is nowhere left to complain about a closed standard error.
+    let _ = writeln!(std::io::stderr(), "{text}");
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn arguments_are_consistent() {
+        Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn help_reads_well() {
+        let mut command = Cli::command().term_width(90);
+        insta::assert_snapshot!("help", command.render_long_help());
+        for name in ["run", "vv", "report", "bench"] {
+            let sub = command.find_subcommand_mut(name).expect("a command");
+            insta::assert_snapshot!(format!("help_{name}"), sub.clone().term_width(90).render_long_help());
+        }
+    }
+}

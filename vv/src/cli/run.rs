@@ -1,0 +1,193 @@
+//! `whipple run`: one case, once.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use serde::Serialize;
+use whipple_solver::method::Preset;
+
+use super::progress::Progress;
+use super::{Failure, NUMERICAL_FAILURE, RunArgs, print};
+use crate::cases::{self, Case};
+use crate::files::{ensure_writable_dir, write_atomic};
+use crate::overrides;
+use crate::record::{Outcome, RunKey, RunRecord, Scheme, Series};
+use crate::report::sig;
+use crate::run::{Request, run as run_case};
+use crate::suggest::did_you_mean;
+use crate::suite::{command_of, scene_of, write_record};
+
+/// Most threads that a run may ask for.
+const MAX_THREADS: usize = 1024;
+
+/// What `--json` prints.
+#[derive(Serialize)]
+struct Summary<'a> {
+    case: &'a str,
+    variant: &'a str,
+    preset: Option<&'static str>,
+    density: Option<&'static str>,
+    n: usize,
+    threads: usize,
+    outcome: &'a Outcome,
+    steps: u64,
+    particle_steps: u64,
+    cpu_seconds: f64,
+    energy_drift: f64,
+    momentum_drift: f64,
+    norms: &'a BTreeMap<String, f64>,
+    counters: Option<whipple_solver::counters::Counters>,
+    limiters: Option<whipple_solver::timestep::Decided>,
+    provenance: &'a crate::record::Provenance,
+}
+
+/// Runs a case as the arguments say.
+pub(super) fn run(args: &RunArgs) -> Result<u8, Failure> {
+    let case = find(&args.case)?;
+    if !case.variants().contains(&args.variant.as_str()) {
+        let known: Vec<&str> = case.variants().iter().copied().filter(|v| !v.is_empty()).collect();
+        let known = if known.is_empty() { "none".into() } else { known.join(", ") };
+        let message = format!("`{}` has no variant `{}`; known: {known}", args.case, args.variant);
+        return Err(Failure::usage(message));
+    }
+    if args.threads == 0 || args.threads > MAX_THREADS {
+        let message = format!("--threads {} must be from 1 to {MAX_THREADS}", args.threads);
+        return Err(Failure::usage(message));
+    }
+    let request = request(case, args)?;
+    if let Some(out) = &args.out {
+        ensure_writable_dir(out)?;
+    }
+
+    let progress = Progress::new();
+    progress.start(case.id());
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(args.threads).build();
+    let pool = pool.map_err(|e| Failure::usage(format!("cannot start threads: {e}")))?;
+    let done = pool.install(|| run_case(case, request, &progress));
+    progress.done();
+    let done = done?;
+
+    if let Some(out) = &args.out {
+        write_outputs(out, &done.record)?;
+    }
+    print(&if args.json { json(&done.record)? } else { text(case, &done.record) })?;
+    match done.failure {
+        Some(error) => Err(Failure { code: NUMERICAL_FAILURE, message: error.to_string() }),
+        None => Ok(0),
+    }
+}
+
+fn find(name: &str) -> Result<&'static dyn Case, Failure> {
+    cases::find(name).ok_or_else(|| {
+        let known: Vec<&str> = cases::ALL.iter().map(|c| c.id()).collect();
+        let hint = did_you_mean(name, known);
+        Failure::usage(format!("there is no case `{name}`{hint} (`whipple list` names them all)"))
+    })
+}
+
+/// Cases by name; all when none is named.
+pub(super) fn find_all(names: &[String]) -> Result<Vec<&'static dyn Case>, Failure> {
+    if names.is_empty() {
+        return Ok(cases::ALL.to_vec());
+    }
+    names.iter().map(|name| find(name)).collect()
+}
+
+fn request(case: &dyn Case, args: &RunArgs) -> Result<Request, Failure> {
+    let n = args.n.unwrap_or_else(|| case.default_size());
+    let preset = Preset::from(args.preset);
+    let scheme = if args.godunov {
+        Scheme::Godunov
+    } else {
+        let density = args.density.map_or(preset.method().density, Into::into);
+        Scheme::Particles { preset, density }
+    };
+    let key = RunKey::new(case.id(), scheme, n).variant(&args.variant);
+    let scene = scene_of(case, &key)
+        .map(|scene| overrides::apply(scene, &args.sets))
+        .transpose()
+        .map_err(Failure::usage)?;
+    if let Some(scene) = &scene {
+        scene.validate().map_err(|error| {
+            if error.key.ends_with(".particles") {
+                Failure::usage(format!("--n {n} is too small for `{}`: {error}", case.id()))
+            } else {
+                Failure::usage(error)
+            }
+        })?;
+    }
+    let mut command = command_of(&key);
+    for set in &args.sets {
+        command += &format!(" --set {set}");
+    }
+    Ok(Request { key, scene, threads: args.threads, command })
+}
+
+fn json(record: &RunRecord) -> Result<String, Failure> {
+    let (preset, density) = match record.key.scheme {
+        Scheme::Godunov => (None, None),
+        Scheme::Particles { preset, density } => (Some(preset.name()), Some(density.name())),
+    };
+    let summary = Summary {
+        case: &record.key.case,
+        variant: &record.key.variant,
+        preset,
+        density,
+        n: record.key.n,
+        threads: record.threads,
+        outcome: &record.outcome,
+        steps: record.steps,
+        particle_steps: record.particle_steps,
+        cpu_seconds: record.cpu_seconds,
+        energy_drift: record.energy_drift,
+        momentum_drift: record.momentum_drift,
+        norms: &record.norms,
+        counters: record.counters,
+        limiters: record.limiters,
+        provenance: &record.provenance,
+    };
+    let text = serde_json::to_string_pretty(&summary).map_err(Failure::usage)?;
+    Ok(text + "\n")
+}
+
+fn text(case: &dyn Case, record: &RunRecord) -> String {
+    let mut out = format!("{}: {}, n = {}\n", case.title(), record.key.scheme.label(), record.key.n);
+    let mut row = |name: &str, value: String| out += &format!("  {name:<28} {value}\n");
+    for (name, value) in &record.norms {
+        row(name, sig(*value, 5));
+    }
+    row("energy drift", sig(record.energy_drift, 2));
+    row("momentum drift", sig(record.momentum_drift, 2));
+    row("steps", record.steps.to_string());
+    row("particle-steps", record.particle_steps.to_string());
+    row("CPU seconds", sig(record.cpu_seconds, 3));
+    out
+}
+
+/// The record, the frozen scene and the fields.
+fn write_outputs(out: &Path, record: &RunRecord) -> Result<(), Failure> {
+    if let Some(scene) = &record.scene {
+        let toml = toml::to_string_pretty(scene).map_err(Failure::usage)?;
+        write_atomic(&out.join("scene.toml"), toml.as_bytes())?;
+    }
+    for (name, series) in [("profile.csv", &record.profile), ("history.csv", &record.history)] {
+        if let Some(series) = series {
+            write_atomic(&out.join(name), csv(series)?.as_bytes())?;
+        }
+    }
+    // Last, so that a record always has its fields beside it.
+    Ok(write_record(&out.join("record.json"), record)?)
+}
+
+fn csv(series: &Series) -> Result<String, Failure> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    let failed = |e: csv::Error| Failure::usage(format!("cannot make a CSV table: {e}"));
+    writer.write_record(series.0.keys()).map_err(failed)?;
+    let rows = series.0.values().map(Vec::len).max().unwrap_or(0);
+    for k in 0..rows {
+        let cell = |column: &Vec<f64>| column.get(k).map_or(String::new(), ToString::to_string);
+        writer.write_record(series.0.values().map(cell)).map_err(failed)?;
+    }
+    let bytes = writer.into_inner().map_err(Failure::usage)?;
+    Ok(String::from_utf8_lossy(&bytes).into_owned())
+}

@@ -1,0 +1,45 @@
+//! The report: what the records and verdicts say, in the order in which a reader asks.
+//!
+//! A pure function of the records: nothing is run here, and no clock is read.
+
+mod case;
+mod front;
+
+use crate::cases;
+use crate::claims::Verdict;
+use crate::plots::Figure;
+use crate::record::Records;
+use crate::report::{Report, Section};
+
+/// Composes the report and its figures.
+#[must_use]
+pub fn compose(records: &Records, verdicts: &[Verdict]) -> (Report, Vec<Figure>) {
+    let mut figures = Vec::new();
+    let mut sections = vec![front::summary(verdicts), front::reading()];
+    for case in cases::ALL {
+        if records.of_case(case.id()).next().is_some() {
+            let (section, drawn) = case::section(case, records, verdicts);
+            sections.push(section);
+            figures.extend(drawn);
+        }
+    }
+    sections.extend([
+        front::conservation(records),
+        front::cost(records),
+        front::deviations(),
+        front::provenance(records),
+    ]);
+    let report = Report {
+        title: "Whipple: verification report".into(),
+        subtitle: "The kernel-free hybrid particle-finite-element method in one dimension, judged \
+                   against exact solutions and the paper"
+            .into(),
+        summary: front::verdict(verdicts),
+        sections: sections.into_iter().filter(has_content).collect(),
+    };
+    (report, figures)
+}
+
+fn has_content(section: &Section) -> bool {
+    !section.blocks.is_empty() || !section.subsections.is_empty()
+}

@@ -1,0 +1,118 @@
+//! The section of one case.
+
+use crate::cases::Case;
+use crate::claims::{Verdict, order};
+use crate::convergence::{self, Level};
+use crate::plots::Figure;
+use crate::record::{Outcome, Records, RunRecord, Scheme};
+use crate::report::{Block, Cell, Column, Section, Table, sig};
+
+use super::front::claims_table;
+
+/// Section and figures of a case.
+pub(super) fn section(
+    case: &dyn Case,
+    records: &Records,
+    verdicts: &[Verdict],
+) -> (Section, Vec<Figure>) {
+    let mut blocks = vec![
+        Block::Paragraph(case.about().into()),
+        Block::Paragraph(format!("*Source:* {}.", case.source())),
+    ];
+    let claims: Vec<&Verdict> = verdicts.iter().filter(|v| v.claim.case == case.id()).collect();
+    if !claims.is_empty() {
+        let id = format!("{}-claims", case.id());
+        blocks.push(Block::Table(claims_table(&id, &format!("Claims: {}.", case.title()), &claims)));
+    }
+    blocks.extend(case.extra_tables(records).into_iter().map(Block::Table));
+    let runs: Vec<&RunRecord> = records.of_case(case.id()).collect();
+    blocks.push(Block::Table(norms_table(case, &runs)));
+    blocks.extend(orders_table(case, &runs).map(Block::Table));
+
+    let figures = case.figures(records);
+    for figure in &figures {
+        blocks.push(Block::Figure { id: figure.id.clone(), caption: figure.caption.clone() });
+    }
+    (Section::new(case.id(), case.title(), blocks), figures)
+}
+
+/// Every run and its norms.
+fn norms_table(case: &dyn Case, runs: &[&RunRecord]) -> Table {
+    let mut columns = vec![Column::text("scheme"), Column::text("variant"), Column::number("n", "")];
+    columns.extend(case.tabulated().iter().map(|(_, title)| Column::number(*title, "")));
+    let mut runs = runs.to_vec();
+    runs.sort_by_key(|r| (r.key.variant.clone(), r.key.scheme, r.key.n));
+    let rows = runs.into_iter().map(|r| {
+        let mut row = vec![
+            r.key.scheme.label().into(),
+            r.key.variant.clone().into(),
+            Cell::number(r.key.n as f64, 6),
+        ];
+        let failed = matches!(r.outcome, Outcome::Failed { .. });
+        for (k, (name, _)) in case.tabulated().iter().enumerate() {
+            row.push(match (r.norms.get(*name), &r.outcome) {
+                (Some(&value), _) => Cell::number(value, 4),
+                (None, Outcome::Failed { kind, .. }) if k == 0 => format!("failed: {kind}").into(),
+                _ if failed => "".into(),
+                _ => "–".into(),
+            });
+        }
+        row
+    });
+    Table {
+        id: format!("{}-norms", case.id()),
+        caption: format!("Errors: {}.", case.title()),
+        columns,
+        rows: rows.collect(),
+    }
+}
+
+/// Orders of every norm and scheme that has three sizes or more.
+fn orders_table(case: &dyn Case, runs: &[&RunRecord]) -> Option<Table> {
+    let mut groups: Vec<(Scheme, &str, Vec<&RunRecord>)> = Vec::new();
+    for run in runs.iter().filter(|r| r.outcome == Outcome::Completed) {
+        let key = (run.key.scheme, run.key.variant.as_str());
+        match groups.iter_mut().find(|(s, v, _)| (*s, *v) == key) {
+            Some((_, _, members)) => members.push(run),
+            None => groups.push((key.0, key.1, vec![run])),
+        }
+    }
+    let mut rows = Vec::new();
+    for (scheme, variant, mut members) in groups {
+        members.sort_by_key(|r| r.key.n);
+        for (name, title) in case.tabulated() {
+            let Some(fit) = order(&members, name) else { continue };
+            let levels: Vec<Level> = members
+                .iter()
+                .map(|r| Level { spacing: 1.0 / r.key.n as f64, value: r.norms[*name] })
+                .collect();
+            let pairwise = convergence::pairwise_orders(&levels).unwrap_or_default();
+            let pairwise: Vec<String> = pairwise.into_iter().map(|p| sig(p, 3)).collect();
+            let (low, high) = fit.interval;
+            rows.push(vec![
+                scheme.label().into(),
+                variant.into(),
+                (*title).into(),
+                pairwise.join(", ").into(),
+                Cell::number(fit.order, 4),
+                Cell::number(fit.standard_error, 2),
+                format!("{} to {}", sig(low, 3), sig(high, 3)).into(),
+            ]);
+        }
+    }
+    let columns = vec![
+        Column::text("scheme"),
+        Column::text("variant"),
+        Column::text("norm"),
+        Column::number("between sizes", ""),
+        Column::number("fitted", ""),
+        Column::number("standard error", ""),
+        Column::number("95 %", ""),
+    ];
+    (!rows.is_empty()).then(|| Table {
+        id: format!("{}-orders", case.id()),
+        caption: format!("Observed orders of convergence: {}.", case.title()),
+        columns,
+        rows,
+    })
+}

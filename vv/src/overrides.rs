@@ -1,0 +1,170 @@
+//! `--set KEY=VALUE`: changing one value of a scene by the name that its file gives it.
+
+use serde_json::Value;
+use whipple_solver::scene::Scene;
+
+use crate::suggest::did_you_mean;
+
+/// Why a scene cannot be changed as asked.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum OverrideError {
+    /// No `=`.
+    #[error("`--set {0}` has no value: write KEY=VALUE, such as heating=pair or method.cfl=0.1")]
+    NoValue(String),
+    /// No such key.
+    #[error("`--set {key}={value}`: there is no `{part}` in {place}{hint}")]
+    NoKey {
+        /// The key as given.
+        key: String,
+        /// The value as given.
+        value: String,
+        /// The part that is not there.
+        part: String,
+        /// Where it was looked for.
+        place: String,
+        /// A similar name, or nothing.
+        hint: String,
+    },
+    /// A value of the wrong form.
+    #[error("`--set {key}={value}`: {reason}")]
+    BadValue {
+        /// The key as given.
+        key: String,
+        /// The value as given.
+        value: String,
+        /// What is wrong with it.
+        reason: String,
+    },
+}
+
+/// Applies overrides to a scene. A key without a dot is looked for among the method's choices
+/// first: `heating` is `method.heating`. Values are TOML; a bare word is a string.
+///
+/// # Errors
+/// The first override that names nothing or has a value of the wrong form. Whether the value makes
+/// sense is for [`Scene::validate`] to say.
+pub fn apply(scene: Scene, overrides: &[String]) -> Result<Scene, OverrideError> {
+    let mut scene = scene;
+    for text in overrides {
+        scene = apply_one(&scene, text)?;
+    }
+    Ok(scene)
+}
+
+fn apply_one(scene: &Scene, text: &str) -> Result<Scene, OverrideError> {
+    let Some((key, value)) = text.split_once('=') else {
+        return Err(OverrideError::NoValue(text.to_owned()));
+    };
+    let (key, value) = (key.trim(), value.trim());
+    let bad = |reason: String| OverrideError::BadValue { key: key.into(), value: value.into(), reason };
+
+    let mut tree = serde_json::to_value(scene).map_err(|e| bad(e.to_string()))?;
+    let in_method = !key.contains('.') && tree["method"].get(key).is_some();
+    let path = if in_method { format!("method.{key}") } else { key.to_owned() };
+    *place(&mut tree, &path, key, value)? = parse(value).map_err(bad)?;
+
+    // The JSON text of the value keeps the path of an error; the scene has no other route in.
+    serde_path_to_error::deserialize(tree).map_err(|e| {
+        let inner = e.inner().to_string();
+        bad(inner.replace("invalid type: ", "found ").replace("unknown variant", "unknown choice"))
+    })
+}
+
+/// The value at a dotted path.
+fn place<'a>(
+    tree: &'a mut Value,
+    path: &str,
+    key: &str,
+    value: &str,
+) -> Result<&'a mut Value, OverrideError> {
+    let mut at = tree;
+    let mut place = String::from("the scene");
+    for part in path.split('.') {
+        let known: Vec<String> = match at {
+            Value::Object(map) => map.keys().cloned().collect(),
+            Value::Array(items) => (0..items.len()).map(|k| k.to_string()).collect(),
+            _ => Vec::new(),
+        };
+        if !known.iter().any(|k| k == part) {
+            let mut names: Vec<&str> = known.iter().map(String::as_str).collect();
+            let method: Vec<String>;
+            if place == "the scene" {
+                method = at["method"].as_object().map_or(vec![], |m| m.keys().cloned().collect());
+                names.extend(method.iter().map(String::as_str));
+                return Err(no_key(key, value, part, "the scene or its method", &names));
+            }
+            return Err(no_key(key, value, part, &place, &names));
+        }
+        at = match at {
+            Value::Array(items) => match part.parse::<usize>().ok().and_then(|k| items.get_mut(k)) {
+                Some(item) => item,
+                None => return Err(no_key(key, value, part, &place, &[])),
+            },
+            other => &mut other[part],
+        };
+        place = format!("`{part}`");
+    }
+    Ok(at)
+}
+
+fn no_key(key: &str, value: &str, part: &str, place: &str, known: &[&str]) -> OverrideError {
+    let hint = match did_you_mean(part, known.iter().copied()) {
+        hint if hint.is_empty() && !known.is_empty() => format!("; known: {}", known.join(", ")),
+        hint => hint,
+    };
+    OverrideError::NoKey {
+        key: key.into(),
+        value: value.into(),
+        part: part.into(),
+        place: place.into(),
+        hint,
+    }
+}
+
+/// A TOML value, or a bare word.
+fn parse(text: &str) -> Result<Value, String> {
+    let value = match toml::from_str::<toml::Table>(&format!("value = {text}")) {
+        Ok(mut table) => table.remove("value").unwrap_or(toml::Value::String(text.into())),
+        Err(_) => toml::Value::String(text.into()),
+    };
+    json(value)
+}
+
+fn json(value: toml::Value) -> Result<Value, String> {
+    match value {
+        toml::Value::Float(x) if !x.is_finite() => Err("a finite number is needed".into()),
+        other => serde_json::to_value(other).map_err(|e| e.to_string()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use whipple_solver::method::{Heating, Preset};
+
+    fn changed(set: &str) -> Result<Scene, String> {
+        let scene = crate::cases::find("noh").expect("a case").scene(Preset::Default, "", 10);
+        apply(scene, &[set.to_owned()]).map_err(|e| e.to_string())
+    }
+
+    #[test]
+    fn short_and_long_keys_reach_the_method() {
+        for key in ["heating=printed", "method.heating=printed"] {
+            assert_eq!(changed(key).map(|s| s.method.heating), Ok(Heating::Printed));
+        }
+        assert_eq!(changed("cfl=1e-1").map(|s| s.method.cfl), Ok(0.1));
+        assert_eq!(changed("bodies.0.particles=7").map(|s| s.bodies[0].particles), Ok(7));
+        assert_eq!(changed("stop_time=1").map(|s| s.stop_time), Ok(1.0));
+    }
+
+    #[test]
+    fn messages_say_what_is_wanted() {
+        let message = |set: &str| changed(set).expect_err("must be refused");
+        insta::assert_snapshot!(message("heating"), @"`--set heating` has no value: write KEY=VALUE, such as heating=pair or method.cfl=0.1");
+        insta::assert_snapshot!(message("heatng=pair"));
+        insta::assert_snapshot!(message("heating=sideways"));
+        insta::assert_snapshot!(message("cfl=nan"), @"`--set cfl=nan`: a finite number is needed");
+        insta::assert_snapshot!(message("cfl=fast"));
+        insta::assert_snapshot!(message("bodies.3.particles=7"));
+    }
+}
