@@ -34,6 +34,10 @@ pub struct Side {
     pub l: f64,
     /// Reference density `rho_o`.
     pub rho_0: f64,
+    /// Index of its material.
+    pub material: u16,
+    /// Continuous medium that it belongs to.
+    pub medium: u16,
     /// Density, where the scheme stores one.
     pub rho: f64,
     /// Internal energy per unit mass `u`.
@@ -45,8 +49,8 @@ pub struct Side {
 struct BodyRow {
     rho_0: f64,
     material: u16,
-    /// Bodies that are joined have the same group.
-    group: u16,
+    /// Bodies that are joined are one medium.
+    medium: u16,
 }
 
 /// Masses, sizes and bodies of the particles, mirror images included.
@@ -110,12 +114,12 @@ impl Chain {
     fn row(&self, scene: &Scene, k: usize, body: &Body) -> BodyRow {
         // Validation guarantees that the material exists.
         let material = scene.material_index(&body.material).unwrap_or(0);
-        let group = match (k, body.interface) {
+        let medium = match (k, body.interface) {
             (0, _) => 0,
-            (_, Interface::Joined) => self.rows[k - 1].group,
-            (_, Interface::Contact) => self.rows[k - 1].group + 1,
+            (_, Interface::Joined) => self.rows[k - 1].medium,
+            (_, Interface::Contact) => self.rows[k - 1].medium + 1,
         };
-        BodyRow { rho_0: scene.materials[material].density, material: material as u16, group }
+        BodyRow { rho_0: scene.materials[material].density, material: material as u16, medium }
     }
 
     /// Number of particles, images included.
@@ -149,6 +153,12 @@ impl Chain {
         self.m[i]
     }
 
+    /// Masses of all particles.
+    #[must_use]
+    pub fn masses(&self) -> &[f64] {
+        &self.m
+    }
+
     /// Reference density of particle `i`.
     #[inline(always)]
     #[must_use]
@@ -170,36 +180,49 @@ impl Chain {
     }
 
     /// Whether two particles belong to one continuous medium.
-    #[inline(always)]
     #[must_use]
     pub fn joined(&self, a: usize, b: usize) -> bool {
-        let (a, b) = (self.body[a], self.body[b]);
-        a == b || self.rows[usize::from(a)].group == self.rows[usize::from(b)].group
+        let medium = |i: usize| self.rows[usize::from(self.body[i])].medium;
+        medium(a) == medium(b)
     }
 
     /// Particle `i` as one side of a pair.
     #[inline(always)]
     #[must_use]
     pub fn side(&self, i: usize, rho: f64, u: f64) -> Side {
-        Side { index: i, m: self.m[i], l: self.l[i], rho_0: self.rho_0(i), rho, u }
+        let BodyRow { rho_0, material, medium } = self.rows[usize::from(self.body[i])];
+        Side { index: i, m: self.m[i], l: self.l[i], rho_0, material, medium, rho, u }
     }
 
-    /// The pair of particle `a` and a particle `b` on its right.
+    /// A particle and one on its right at the distance `r`.
     #[inline(always)]
     #[must_use]
-    pub fn contact(&self, x: &[f64], a: usize, b: usize) -> Contact {
-        let r = x[b] - x[a];
-        let length = 0.5 * (self.l[a] + self.l[b]);
+    pub fn contact(&self, left: &Side, right: &Side, r: f64) -> Contact {
+        let length = 0.5 * (left.l + right.l);
         let zeta = r / length;
-        let bonded = b == a + 1 && self.joined(a, b);
-        let nearest = bonded || (b == a + 1 && zeta < 1.0);
+        let neighbours = right.index == left.index + 1;
+        let bonded = neighbours && left.medium == right.medium;
+        let nearest = bonded || (neighbours && zeta < 1.0);
         Contact { r, length, zeta, nearest, bonded }
+    }
+
+    /// The pair of particle `a` and a particle `b` on its right, at these positions.
+    #[must_use]
+    pub fn contact_at(&self, x: &[f64], a: usize, b: usize) -> Contact {
+        self.contact(&self.side(a, 0.0, 0.0), &self.side(b, 0.0, 0.0), x[b] - x[a])
+    }
+
+    /// Contact length of particle `i`.
+    #[inline(always)]
+    #[must_use]
+    pub fn length(&self, i: usize) -> f64 {
+        self.l[i]
     }
 
     /// Contact coordinates of the one or two nearest neighbours that particle `i` touches.
     pub fn touching<'a>(&'a self, x: &'a [f64], i: usize) -> impl Iterator<Item = f64> + 'a {
-        let left = (i > 0).then(|| self.contact(x, i - 1, i));
-        let right = (i + 1 < self.len()).then(|| self.contact(x, i, i + 1));
+        let left = (i > 0).then(|| self.contact_at(x, i - 1, i));
+        let right = (i + 1 < self.len()).then(|| self.contact_at(x, i, i + 1));
         left.into_iter().chain(right).filter(|c| c.nearest).map(|c| c.zeta)
     }
 

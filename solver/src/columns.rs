@@ -123,7 +123,15 @@ pub fn chunks<T: Send>(column: &mut [T], work: impl Fn(usize, &mut [T]) + Sync) 
 pub struct Bins<'a, T> {
     start: usize,
     own: &'a mut [T],
-    spill: &'a mut [T; REACH],
+    spill: &'a mut Spill<T>,
+}
+
+/// Sums of a chunk for the particles of the next.
+#[derive(Debug, Clone)]
+struct Spill<T> {
+    values: [T; REACH],
+    /// Length of the part in use.
+    used: usize,
 }
 
 impl<T: AddAssign> Bins<'_, T> {
@@ -146,7 +154,9 @@ impl<T: AddAssign> Bins<'_, T> {
         if k < self.own.len() {
             self.own[k] += value;
         } else {
-            self.spill[k - self.own.len()] += value;
+            let k = k - self.own.len();
+            self.spill.values[k] += value;
+            self.spill.used = self.spill.used.max(k + 1);
         }
     }
 }
@@ -154,7 +164,7 @@ impl<T: AddAssign> Bins<'_, T> {
 /// Memory for sums over pairs: made once, used in every sweep.
 #[derive(Debug)]
 pub struct Scratch<T, S> {
-    spill: Vec<[T; REACH]>,
+    spill: Vec<Spill<T>>,
     sums: Vec<S>,
 }
 
@@ -164,7 +174,7 @@ impl<T: Copy + Default + AddAssign + Send, S: Default + Send> Scratch<T, S> {
     pub fn new(n: usize) -> Self {
         let chunks = n.div_ceil(CHUNK);
         Self {
-            spill: vec![[T::default(); REACH]; chunks],
+            spill: vec![Spill { values: [T::default(); REACH], used: 0 }; chunks],
             sums: (0..chunks).map(|_| S::default()).collect(),
         }
     }
@@ -176,9 +186,10 @@ impl<T: Copy + Default + AddAssign + Send, S: Default + Send> Scratch<T, S> {
         column: &mut [T],
         work: impl Fn(&mut Bins<'_, T>) -> S + Sync,
     ) -> &[S] {
-        let one = |c: usize, own: &mut [T], spill: &mut [T; REACH], sum: &mut S| {
+        let one = |c: usize, own: &mut [T], spill: &mut Spill<T>, sum: &mut S| {
             own.fill(T::default());
-            spill.fill(T::default());
+            spill.values[..spill.used].fill(T::default());
+            spill.used = 0;
             *sum = work(&mut Bins { start: c * CHUNK, own, spill });
         };
         if column.len() <= CHUNK {
@@ -193,7 +204,7 @@ impl<T: Copy + Default + AddAssign + Send, S: Default + Send> Scratch<T, S> {
             .for_each(|(c, ((own, spill), sum))| one(c, own, spill, sum));
         for (c, spill) in self.spill.iter().enumerate() {
             let behind = ((c + 1) * CHUNK).min(column.len());
-            for (value, add) in column[behind..].iter_mut().zip(spill) {
+            for (value, add) in column[behind..].iter_mut().zip(&spill.values[..spill.used]) {
                 *value += *add;
             }
         }

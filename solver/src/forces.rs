@@ -16,6 +16,9 @@ use crate::physics::Physics;
 use crate::timestep::{Limiter, Vote};
 use crate::viscosity::{Closing, ViscousLaw};
 
+/// Pairs that are prepared together: enough to amortise the loops, few enough for the cache.
+const BLOCK: usize = 32;
+
 /// The laws of a scene: constant during a run.
 pub struct Laws<P: Physics<1>> {
     /// Density scheme.
@@ -129,19 +132,30 @@ pub struct View<'a, C> {
     pub rho: &'a C,
 }
 
-/// A pair of nearest neighbours and the jump of the velocity between them.
+/// A particle as one end of pairs: everything that a pair asks of it, read once.
+struct End<'a, E> {
+    side: Side,
+    eos: &'a E,
+    sound: f64,
+    x: f64,
+    v: f64,
+    drift: f64,
+}
+
+impl<E> Copy for End<'_, E> {}
+
+impl<E> Clone for End<'_, E> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+/// A pair of nearest neighbours.
 #[derive(Clone, Copy)]
 struct Link {
     contact: Contact,
     /// Closing speed, zero where the two do not touch.
     jump: f64,
-}
-
-/// A particle with its equation of state and sound speed.
-struct End<'a, E> {
-    side: Side,
-    eos: &'a E,
-    sound: f64,
 }
 
 /// One sweep over the pairs whose left particle is in a chunk.
@@ -157,32 +171,41 @@ pub struct Sweep<'a, P: Physics<1>> {
 type RateOf<P> = <<P as Physics<1>>::Density as DensityScheme<1>>::Rate;
 
 impl<P: Physics<1>> Sweep<'_, P> {
-    /// Sweeps a chunk.
+    /// Sweeps a chunk, block by block: particles are read once, then looked at pair by pair.
     pub fn chunk<K: Pass>(&self, bins: &mut Bins<'_, Tally<RateOf<P>>>) -> PairSums {
         let mut sums = PairSums::default();
         let far = self.laws.support > 0.0;
-        let n = self.chain.len();
-        let (start, end) = (bins.start(), bins.end().min(n - 1));
+        let last = self.chain.len() - 1;
+        let (start, end) = (bins.start(), bins.end().min(last));
         if start >= end {
             return sums;
         }
-        let mut link = self.link(start);
+        let mut ends = [self.end(start); BLOCK + 2];
+        let mut links = [self.link(&ends[0], &self.end(start + 1)); BLOCK + 1];
         // Beyond an end the velocity goes on as it does before it.
-        let mut before = if start > 0 { self.link(start - 1).jump } else { link.jump };
-        let mut left = self.end(start);
-        for i in start..end {
-            let next = (i + 2 < n).then(|| self.link(i + 1));
-            let after = next.map_or(link.jump, |l| l.jump);
-            let right = self.end(i + 1);
-            let jump = self.laws.viscosity.seen([before, link.jump, after]);
-            self.pair::<K>(&link.contact, jump, [&left, &right], bins, &mut sums);
-            if far {
-                self.beyond::<K>(&left, bins, &mut sums);
+        let mut before = if start > 0 { self.jump_at(start - 1) } else { links[0].jump };
+        for first in (start..end).step_by(BLOCK) {
+            let pairs = BLOCK.min(end - first);
+            // One particle and one pair more, unless the chain ends here.
+            let known = (pairs + 1).min(last - first);
+            for (k, slot) in ends[..=known].iter_mut().enumerate() {
+                *slot = self.end(first + k);
             }
-            before = link.jump;
-            left = right;
-            if let Some(next) = next {
-                link = next;
+            for (link, pair) in links[..known].iter_mut().zip(ends.windows(2)) {
+                *link = self.link(&pair[0], &pair[1]);
+            }
+            for k in 0..pairs {
+                let (own, after) = (links[k].jump, links[(k + 1).min(known - 1)].jump);
+                let seen = self.laws.viscosity.seen([before, own, after]);
+                before = own;
+                let (left, right) = (&ends[k], &ends[k + 1]);
+                let (on_left, on_right) =
+                    self.pair::<K>(&links[k].contact, seen, [left, right], &mut sums);
+                bins.add(first + k, on_left);
+                bins.add(first + k + 1, on_right);
+                if far {
+                    self.beyond::<K>(left, bins, &mut sums);
+                }
             }
         }
         sums
@@ -195,36 +218,48 @@ impl<P: Physics<1>> Sweep<'_, P> {
         bins: &mut Bins<'_, Tally<RateOf<P>>>,
         sums: &mut PairSums,
     ) {
+        let mut on_left = Tally::default();
         let i = left.side.index;
         let range = self.laws.support * self.chain.longest();
         for j in i + 2..self.chain.len() {
-            if self.state.x[j] - self.state.x[i] >= range {
-                return;
+            let r = self.state.x[j] - left.x;
+            if r >= range {
+                break;
             }
             if j - i >= REACH {
                 sums.overflow.get_or_insert(i);
-                return;
+                break;
             }
-            let contact = self.chain.contact(self.state.x, i, j);
+            let right = self.end(j);
+            let contact = self.chain.contact(&left.side, &right.side, r);
             if contact.zeta < self.laws.support {
-                let jump = self.state.v[i] - self.state.v[j];
-                self.pair::<K>(&contact, jump, [left, &self.end(j)], bins, sums);
+                let seen = left.v - right.v;
+                let (on_i, on_j) = self.pair::<K>(&contact, seen, [left, &right], sums);
+                on_left += on_i;
+                bins.add(j, on_j);
             }
         }
+        bins.add(i, on_left);
+    }
+
+    /// Velocity jump between particle `i` and the next.
+    fn jump_at(&self, i: usize) -> f64 {
+        self.link(&self.end(i), &self.end(i + 1)).jump
     }
 
     #[inline(always)]
-    fn link(&self, i: usize) -> Link {
-        let contact = self.chain.contact(self.state.x, i, i + 1);
-        let jump = if contact.nearest { self.state.v[i] - self.state.v[i + 1] } else { 0.0 };
-        Link { contact, jump }
+    fn link(&self, left: &End<'_, P::Eos>, right: &End<'_, P::Eos>) -> Link {
+        let contact = self.chain.contact(&left.side, &right.side, right.x - left.x);
+        Link { contact, jump: if contact.nearest { left.v - right.v } else { 0.0 } }
     }
 
     #[inline(always)]
     fn end(&self, i: usize) -> End<'_, P::Eos> {
-        let u = self.state.u[i];
-        let eos = &self.laws.eos[self.chain.material(i)];
-        End { side: self.chain.side(i, self.state.rho.get(i), u), eos, sound: eos.sound_speed(u) }
+        let state = &self.state;
+        let u = state.u[i];
+        let side = self.chain.side(i, state.rho.get(i), u);
+        let eos = &self.laws.eos[usize::from(side.material)];
+        End { side, eos, sound: eos.sound_speed(u), x: state.x[i], v: state.v[i], drift: state.drift[i] }
     }
 
     /// All that two particles do to each other.
@@ -232,26 +267,21 @@ impl<P: Physics<1>> Sweep<'_, P> {
     fn pair<K: Pass>(
         &self,
         contact: &Contact,
-        jump: f64,
+        seen: f64,
         [i, j]: [&End<'_, P::Eos>; 2],
-        bins: &mut Bins<'_, Tally<RateOf<P>>>,
         sums: &mut PairSums,
-    ) {
+    ) -> (Tally<RateOf<P>>, Tally<RateOf<P>>) {
         sums.pairs += 1;
-        let state = &self.state;
-        let (a, b) = (i.side.index, j.side.index);
         let (row_i, row_j) =
             (self.laws.density.row(&i.side, contact), self.laws.density.row(&j.side, contact));
         let push_i = row_i.lever * P::Solid::carried(i.eos.pressure(row_i.rho, i.side.u));
         let push_j = row_j.lever * P::Solid::carried(j.eos.pressure(row_j.rho, j.side.u));
 
         let sound = [i.sound, j.sound];
-        let closing = Closing { jump, rho: [row_i.rho, row_j.rho], sound };
+        let closing = Closing { jump: seen, rho: [row_i.rho, row_j.rho], sound };
         let sides = [(&i.side, i.eos), (&j.side, j.eos)];
-        let viscous = jump * self.laws.viscosity.coefficient(contact, &closing, sides);
-        let transfer = self.laws.heat.transfer(contact, &closing, sides);
-
-        let tension = if P::Solid::RESISTS && contact.nearest && self.chain.joined(a, b) {
+        let viscous = seen * self.laws.viscosity.coefficient(contact, &closing, sides);
+        let tension = if P::Solid::RESISTS && contact.bonded {
             P::Solid::tension(series(i.eos.bulk(), j.eos.bulk()), contact.zeta)
         } else {
             0.0
@@ -264,14 +294,15 @@ impl<P: Physics<1>> Sweep<'_, P> {
             on_j.force = force;
         }
         if K::RATES {
-            let approach = state.drift[a] - state.drift[b];
+            let approach = i.drift - j.drift;
             let (heat_i, heat_j) = match self.laws.heating {
                 Heating::Pair => (0.5 * viscous * approach, 0.5 * viscous * approach),
-                Heating::Printed => (viscous * state.drift[a], -viscous * state.drift[b]),
+                Heating::Printed => (viscous * i.drift, -viscous * j.drift),
             };
             on_i.power = push_i * approach + heat_i;
             on_j.power = push_j * approach + heat_j;
             if P::Heat::CONDUCTS {
+                let transfer = self.laws.heat.transfer(contact, &closing, sides);
                 let flow = transfer * (i.eos.temperature(i.side.u) - j.eos.temperature(j.side.u));
                 on_i.power -= flow;
                 on_j.power += flow;
@@ -281,7 +312,7 @@ impl<P: Physics<1>> Sweep<'_, P> {
             sums.strain_power += tension * approach;
         }
         if K::VOTES {
-            let speed = state.v[a] - state.v[b];
+            let speed = i.v - j.v;
             let free = Closing { jump: speed, ..closing };
             let viscous = self.laws.viscosity.bound(contact, &free, sides);
             let transfer = self.laws.heat.transfer(contact, &free, sides);
@@ -292,11 +323,10 @@ impl<P: Physics<1>> Sweep<'_, P> {
             let stiffness = 0.5 * (stiff(&row_i, sound[0]) + stiff(&row_j, sound[1]));
             let inertia = contact.r * i.side.m.min(j.side.m);
             let [by_sound, by_closing] = &mut sums.votes;
-            by_sound.consider((inertia / stiffness).sqrt(), a);
-            by_closing.consider(contact.r / speed.abs(), a);
+            by_sound.consider(inertia / stiffness, i.side.index);
+            by_closing.consider(contact.r / speed.abs(), i.side.index);
         }
-        bins.add(a, on_i);
-        bins.add(b, on_j);
+        (on_i, on_j)
     }
 }
 

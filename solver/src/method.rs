@@ -134,7 +134,7 @@ impl Preset {
                 heat_coeff: 0.1,
                 sound_speed: SoundSpeed::Total,
                 integrator: Integrator::SinglePass,
-                cfl: 0.13,
+                cfl: 0.14,
                 kernel_support: 2.0,
             },
             Self::Default => Method {

@@ -220,7 +220,9 @@ impl<P: Physics<1>> Simulation<P> {
         for i in self.chain.real() {
             damped.consider(self.chain.mass(i) / self.tally[i].damping, i);
         }
-        let voted = Vote::together(votes[0].min(votes[1]), damped).scaled(self.cfl);
+        // The sweep votes with the square of the time that sound takes, to save it the root.
+        let sound = Vote { dt: votes[0].dt.sqrt(), ..votes[0] };
+        let voted = Vote::together(sound.min(votes[1]), damped).scaled(self.cfl);
         if voted.dt.is_nan() || voted.dt < self.smallest_step {
             return Err(StepError::TimeStep {
                 particle: self.label(voted.particle),
@@ -250,12 +252,15 @@ impl<P: Physics<1>> Simulation<P> {
         let State { x, v, u, rho } = &mut self.middle;
         rho.advance(&state.rho, |i| half * tally[i].rho_rate.value());
         zipped(x, v, u, |start, x, v, u| {
+            let range = start..start + x.len();
+            let (x_0, v_0) = (&state.x[range.clone()], &state.v[range.clone()]);
+            let (u_0, m) = (&state.u[range.clone()], &chain.masses()[range.clone()]);
+            let tally = &tally[range];
             for k in 0..x.len() {
-                let i = start + k;
-                let per_mass = half / chain.mass(i);
-                x[k] = state.x[i] + half * state.v[i];
-                v[k] = state.v[i] + per_mass * tally[i].force;
-                u[k] = state.u[i] + per_mass * tally[i].power;
+                let per_mass = half / m[k];
+                x[k] = x_0[k] + half * v_0[k];
+                v[k] = v_0[k] + per_mass * tally[k].force;
+                u[k] = u_0[k] + per_mass * tally[k].power;
             }
         });
         reflect(chain, &mut self.middle);
@@ -265,9 +270,11 @@ impl<P: Physics<1>> Simulation<P> {
     fn kick(&mut self, dt: f64) {
         let (chain, state, tally) = (&self.chain, &self.state, &self.tally);
         crate::columns::chunks(&mut self.mean, |start, mean| {
+            let range = start..start + mean.len();
+            let (v_0, m) = (&state.v[range.clone()], &chain.masses()[range.clone()]);
+            let tally = &tally[range];
             for (k, mean) in mean.iter_mut().enumerate() {
-                let i = start + k;
-                *mean = state.v[i] + 0.5 * dt / chain.mass(i) * tally[i].force;
+                *mean = v_0[k] + 0.5 * dt / m[k] * tally[k].force;
             }
         });
         for (image, of) in chain.images() {
@@ -282,12 +289,15 @@ impl<P: Physics<1>> Simulation<P> {
         let State { x, v, u, rho } = &mut self.middle;
         rho.advance(&state.rho, |i| dt * tally[i].rho_rate.value());
         zipped(x, v, u, |start, x, v, u| {
+            let range = start..start + x.len();
+            let (x_0, v_0) = (&state.x[range.clone()], &state.v[range.clone()]);
+            let (u_0, m) = (&state.u[range.clone()], &chain.masses()[range.clone()]);
+            let (tally, mean) = (&tally[range.clone()], &mean[range]);
             for k in 0..x.len() {
-                let i = start + k;
-                let drift = if over_mean { mean[i] } else { v[k] };
-                x[k] = state.x[i] + dt * drift;
-                v[k] = 2.0 * mean[i] - state.v[i];
-                u[k] = state.u[i] + dt / chain.mass(i) * tally[i].power;
+                let drift = if over_mean { mean[k] } else { v[k] };
+                x[k] = x_0[k] + dt * drift;
+                v[k] = 2.0 * mean[k] - v_0[k];
+                u[k] = u_0[k] + dt / m[k] * tally[k].power;
             }
         });
         reflect(chain, &mut self.middle);
@@ -450,8 +460,8 @@ impl<P: Physics<1>> Simulation<P> {
         }
         let real = self.chain.real();
         let energy = |i: usize| {
-            let contact = self.chain.contact(&self.state.x, i, i + 1);
-            if !self.chain.joined(i, i + 1) {
+            let contact = self.chain.contact_at(&self.state.x, i, i + 1);
+            if !contact.bonded {
                 return 0.0;
             }
             let stretch = (contact.zeta - 1.0).max(0.0);

@@ -91,7 +91,7 @@ impl DensityScheme<1> for Kernel {
                 let own = |j: &usize| chain.joined(i, *j);
                 let left = (0..i).rev().take_while(own);
                 let right = (i + 1..x.len()).take_while(own);
-                let sum = |j: usize| self.spline.weight(chain.contact(x, i.min(j), i.max(j)).zeta);
+                let sum = |j: usize| self.spline.weight(chain.contact_at(x, i.min(j), i.max(j)).zeta);
                 let near = |w: &f64| *w > 0.0;
                 1.0 + left.map(sum).take_while(near).sum::<f64>()
                     + right.map(sum).take_while(near).sum::<f64>()
@@ -110,10 +110,11 @@ impl DensityScheme<1> for Kernel {
             for i in bins.start()..bins.end() {
                 bins.add(i, chain.rho_0(i) / reference[i]);
                 for j in i + 1..x.len().min(i + REACH) {
-                    if x[j] - x[i] >= reach {
+                    let r = x[j] - x[i];
+                    if r >= reach {
                         break;
                     }
-                    let w = spline.weight(chain.contact(x, i, j).zeta);
+                    let w = spline.weight(2.0 * r / (chain.length(i) + chain.length(j)));
                     bins.add(i, w * chain.rho_0(i) / reference[i]);
                     bins.add(j, w * chain.rho_0(j) / reference[j]);
                     evaluations += 1;

@@ -50,7 +50,7 @@ fn setup(variant: &str) -> Result<Setup, RunError> {
 
 fn claims() -> Vec<Claim> {
     let first = "L1 converges with first order for a method that captures shocks";
-    let study = "1D study, section 5: NEW2 at n = 200, plus 10 %";
+    let study = "1D study, section 5: its best prototype at n = 200";
     let verified = Claims::new(ID, Kind::Verification, Weight::Must, first);
     let mut out = Vec::new();
     for preset in Preset::ALL {
@@ -64,11 +64,11 @@ fn claims() -> Vec<Claim> {
     let at = |variant: &str| {
         RunKey::new(ID, Scheme::preset(Preset::Default), 200).variant(variant)
     };
-    let study = Claims::new(ID, Kind::Verification, Weight::Must, study);
+    let study = Claims::new(ID, Kind::Verification, Weight::Aim, study);
     let l1 = |variant, bound| (Quantity::Norm(at(variant), "density_l1"), Wanted::AtMost(bound));
-    let (quantity, wanted) = l1("", 0.0037);
+    let (quantity, wanted) = l1("", 0.0033);
     out.push(study.claim("L1 ρ, equal spacing, n = 200, `default`", quantity, wanted));
-    let (quantity, wanted) = l1("equal-mass", 0.0049);
+    let (quantity, wanted) = l1("equal-mass", 0.0044);
     out.push(study.claim("L1 ρ, equal mass, n = 200, `default`", quantity, wanted));
     out.extend(conservation(ID, &at("")));
     out
