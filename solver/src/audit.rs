@@ -45,15 +45,17 @@ pub struct Ledger {
     pub worst_energy: f64,
     /// Largest boundary work so far, in size.
     pub largest_work: f64,
-    /// Largest error of the momentum balance so far, relative to the scale of its time.
+    /// Largest error of the momentum balance so far.
     pub worst_momentum: f64,
+    /// Largest sum of `m |v|` so far.
+    pub largest_momentum: f64,
 }
 
 impl Ledger {
     /// A ledger that starts with these sums.
     #[must_use]
     pub fn new(initial: Totals) -> Self {
-        Self { initial, now: initial, ..Self::default() }
+        Self { initial, now: initial, largest_momentum: initial.momentum_scale, ..Self::default() }
     }
 
     /// Enters the sums at the end of a step.
@@ -63,10 +65,9 @@ impl Ledger {
         let after = now.kinetic + now.internal + self.strain;
         self.worst_energy = self.worst_energy.max((after - before - self.boundary_work).abs());
         self.largest_work = self.largest_work.max(self.boundary_work.abs());
-        if now.momentum_scale > 0.0 {
-            let error = now.momentum - self.initial.momentum - self.boundary_impulse;
-            self.worst_momentum = self.worst_momentum.max((error / now.momentum_scale).abs());
-        }
+        let error = now.momentum - self.initial.momentum - self.boundary_impulse;
+        self.worst_momentum = self.worst_momentum.max(error.abs());
+        self.largest_momentum = self.largest_momentum.max(now.momentum_scale);
     }
 
     /// Largest error of the energy balance over the initial kinetic energy; over the work of the
@@ -78,10 +79,11 @@ impl Ledger {
         self.worst_energy / scale
     }
 
-    /// Largest error of the momentum balance over the sum of `m |v|`.
+    /// Largest error of the momentum balance over the largest sum of `m |v|`: an elastic bar comes
+    /// to rest for an instant in every period.
     #[must_use]
     pub fn momentum_drift(&self) -> f64 {
-        self.worst_momentum
+        if self.largest_momentum > 0.0 { self.worst_momentum / self.largest_momentum } else { 0.0 }
     }
 
     /// Change of the mass over the mass. Zero: particles are neither made nor deleted.

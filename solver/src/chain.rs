@@ -21,6 +21,8 @@ pub struct Contact {
     pub nearest: bool,
     /// Whether they are also of one continuous medium, so that they can pull.
     pub bonded: bool,
+    /// Whether they are of one continuous medium, near or far.
+    pub joined: bool,
 }
 
 /// One particle of a pair.
@@ -201,9 +203,10 @@ impl Chain {
         let length = 0.5 * (left.l + right.l);
         let zeta = r / length;
         let neighbours = right.index == left.index + 1;
-        let bonded = neighbours && left.medium == right.medium;
+        let joined = left.medium == right.medium;
+        let bonded = neighbours && joined;
         let nearest = bonded || (neighbours && zeta < 1.0);
-        Contact { r, length, zeta, nearest, bonded }
+        Contact { r, length, zeta, nearest, bonded, joined }
     }
 
     /// The pair of particle `a` and a particle `b` on its right, at these positions.

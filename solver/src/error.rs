@@ -26,7 +26,7 @@ impl SceneError {
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum StepError {
     /// A state variable is not a finite number.
-    #[error("{quantity} of particle {particle} is {value} at t = {time:e}")]
+    #[error("{quantity} of particle {particle} is {value} at t = {time:.6e}")]
     NotFinite {
         /// Name of the variable.
         quantity: &'static str,
@@ -38,7 +38,7 @@ pub enum StepError {
         value: f64,
     },
     /// The density left the positive numbers.
-    #[error("density of particle {particle} is {value:e} at t = {time:e}: must be positive")]
+    #[error("density of particle {particle} is {value:.3e} at t = {time:.6e}: must be positive")]
     Density {
         /// Index of the particle.
         particle: usize,
@@ -49,8 +49,8 @@ pub enum StepError {
     },
     /// The internal energy fell below what the equation of state can represent.
     #[error(
-        "internal energy of particle {particle} is {value:e} at t = {time:e}, below the floor \
-         {floor:e} of its equation of state: the heating of this method may depend on the frame"
+        "internal energy of particle {particle} is {value:.3e} at t = {time:.6e}, below the floor \
+         {floor:.3e} of its equation of state: the heating of this method may depend on the frame"
     )]
     Energy {
         /// Index of the particle.
@@ -63,7 +63,7 @@ pub enum StepError {
         floor: f64,
     },
     /// Two particles passed through each other.
-    #[error("particles {particle} and {next} crossed at t = {time:e}: separation {value:e}")]
+    #[error("particles {particle} and {next} crossed at t = {time:.6e}: separation {value:.3e}")]
     Crossed {
         /// Index of the left particle.
         particle: usize,
@@ -76,7 +76,7 @@ pub enum StepError {
     },
     /// The time step became too small to go on.
     #[error(
-        "time step {value:e} at t = {time:e} is below {floor:e}: limited by {limiter} at \
+        "time step {value:.3e} at t = {time:.6e} is below {floor:.3e}: limited by {limiter} at \
          particle {particle}"
     )]
     TimeStep {
@@ -93,7 +93,7 @@ pub enum StepError {
     },
     /// More neighbours in range than there is room for.
     #[error(
-        "particle {particle} has more than {room} neighbours on one side in range at t = {time:e}: \
+        "particle {particle} has more than {room} neighbours on one side in range at t = {time:.6e}: \
          the compression is too strong for pairs in contact range"
     )]
     Neighbours {

@@ -19,6 +19,9 @@ use crate::viscosity::{Closing, ViscousLaw};
 /// Pairs that are prepared together: enough to amortise the loops, few enough for the cache.
 const BLOCK: usize = 32;
 
+/// Particles behind a block that are prepared with it, for pairs beyond the nearest.
+const AHEAD: usize = 8;
+
 /// The laws of a scene: constant during a run.
 pub struct Laws<P: Physics<1>> {
     /// Density scheme.
@@ -31,8 +34,15 @@ pub struct Laws<P: Physics<1>> {
     pub heat: P::Heat,
     /// Split of the viscous heat, Eq. (60).
     pub heating: Heating,
-    /// Largest zeta at which pairs beyond the nearest act; zero when none do.
+    /// Largest zeta at which viscosity and conduction act beyond the nearest; zero when they do not.
     pub support: f64,
+}
+
+impl<P: Physics<1>> Laws<P> {
+    /// Whether pairs beyond the nearest act at all.
+    pub fn reach_far(&self) -> bool {
+        self.support > 0.0 || P::Density::SWEEPS > 1
+    }
 }
 
 /// Sums over the contacts of one particle.
@@ -174,21 +184,22 @@ impl<P: Physics<1>> Sweep<'_, P> {
     /// Sweeps a chunk, block by block: particles are read once, then looked at pair by pair.
     pub fn chunk<K: Pass>(&self, bins: &mut Bins<'_, Tally<RateOf<P>>>) -> PairSums {
         let mut sums = PairSums::default();
-        let far = self.laws.support > 0.0;
+        let far = self.laws.reach_far();
         let last = self.chain.len() - 1;
         let (start, end) = (bins.start(), bins.end().min(last));
         if start >= end {
             return sums;
         }
-        let mut ends = [self.end(start); BLOCK + 2];
+        let mut ends = [self.end(start); BLOCK + AHEAD];
         let mut links = [self.link(&ends[0], &self.end(start + 1)); BLOCK + 1];
         // Beyond an end the velocity goes on as it does before it.
         let mut before = if start > 0 { self.jump_at(start - 1) } else { links[0].jump };
         for first in (start..end).step_by(BLOCK) {
             let pairs = BLOCK.min(end - first);
-            // One particle and one pair more, unless the chain ends here.
+            // One pair more, and a few particles, unless the chain ends here.
             let known = (pairs + 1).min(last - first);
-            for (k, slot) in ends[..=known].iter_mut().enumerate() {
+            let read = if far { pairs + AHEAD - 1 } else { pairs + 1 }.min(last - first);
+            for (k, slot) in ends[..=read].iter_mut().enumerate() {
                 *slot = self.end(first + k);
             }
             for (link, pair) in links[..known].iter_mut().zip(ends.windows(2)) {
@@ -204,7 +215,7 @@ impl<P: Physics<1>> Sweep<'_, P> {
                 bins.add(first + k, on_left);
                 bins.add(first + k + 1, on_right);
                 if far {
-                    self.beyond::<K>(left, bins, &mut sums);
+                    self.beyond::<K>(left, &ends[k + 1..=read], bins, &mut sums);
                 }
             }
         }
@@ -212,27 +223,31 @@ impl<P: Physics<1>> Sweep<'_, P> {
     }
 
     /// Pairs of a particle with those beyond its right neighbour.
+    ///
+    /// `prepared`: the particles that follow it, as far as they are read already.
     fn beyond<K: Pass>(
         &self,
         left: &End<'_, P::Eos>,
+        prepared: &[End<'_, P::Eos>],
         bins: &mut Bins<'_, Tally<RateOf<P>>>,
         sums: &mut PairSums,
     ) {
         let mut on_left = Tally::default();
         let i = left.side.index;
         let range = self.laws.support * self.chain.longest();
+        let extent = self.laws.density.extent(i);
         for j in i + 2..self.chain.len() {
             let r = self.state.x[j] - left.x;
-            if r >= range {
+            if r >= range && j > extent {
                 break;
             }
             if j - i >= REACH {
                 sums.overflow.get_or_insert(i);
                 break;
             }
-            let right = self.end(j);
+            let right = prepared.get(j - i - 1).copied().unwrap_or_else(|| self.end(j));
             let contact = self.chain.contact(&left.side, &right.side, r);
-            if contact.zeta < self.laws.support {
+            if contact.zeta < self.laws.support || j <= extent {
                 let seen = left.v - right.v;
                 let (on_i, on_j) = self.pair::<K>(&contact, seen, [left, &right], sums);
                 on_left += on_i;
@@ -278,7 +293,8 @@ impl<P: Physics<1>> Sweep<'_, P> {
         let push_j = row_j.lever * P::Solid::carried(j.eos.pressure(row_j.rho, j.side.u));
 
         let sound = [i.sound, j.sound];
-        let closing = Closing { jump: seen, rho: [row_i.rho, row_j.rho], sound };
+        let closing =
+            Closing { jump: seen, rho: [&i.side, &j.side].map(|s| s.rho_0 / contact.zeta), sound };
         let sides = [(&i.side, i.eos), (&j.side, j.eos)];
         let viscous = seen * self.laws.viscosity.coefficient(contact, &closing, sides);
         let tension = if P::Solid::RESISTS && contact.bonded {

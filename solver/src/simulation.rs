@@ -88,7 +88,7 @@ impl<P: Physics<1>> Simulation<P> {
         let heat = P::Heat::new(method);
         let viscosity = ViscousLaw::new(method);
         let conducting = if P::Heat::CONDUCTS { heat.support() } else { 0.0 };
-        let support = density.support().max(viscosity.support()).max(conducting);
+        let support = viscosity.support().max(conducting);
         let eos = |m: &crate::scene::Material| {
             P::Eos::new(m.density, &m.eos, method.sound_speed).ok_or_else(|| {
                 let wanted = "all materials of a scene need the same form of equation of state";
@@ -96,7 +96,9 @@ impl<P: Physics<1>> Simulation<P> {
             })
         };
         let eos = scene.materials.iter().map(eos).collect::<Result<Vec<_>, _>>()?;
-        let (chain, x) = Chain::new(scene, support > 0.0);
+        let heating = method.heating;
+        let mut laws: Laws<P> = Laws { density, eos, viscosity, heat, heating, support };
+        let (chain, x) = Chain::new(scene, laws.reach_far());
         let n = chain.len();
 
         let mut state =
@@ -107,7 +109,6 @@ impl<P: Physics<1>> Simulation<P> {
             state.u[i] = body.energy.at(state.x[i], (body.from, body.to));
         }
         reflect(&chain, &mut state);
-        let mut laws: Laws<P> = Laws { density, eos, viscosity, heat, heating: method.heating, support };
         laws.density.start(&chain, &state.x, &mut state.rho);
 
         let mut simulation = Self {

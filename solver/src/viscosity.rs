@@ -10,7 +10,7 @@ pub struct Closing {
     /// The part of the closing speed `v = -dr/dt`, Eq. (52), that the viscosity acts on: positive
     /// when converging.
     pub jump: f64,
-    /// Densities of the two sides in this contact.
+    /// Densities of the two sides in this contact, `rho_o / zeta`, whatever the density scheme.
     pub rho: [f64; 2],
     /// Sound speeds of the two sides.
     pub sound: [f64; 2],

@@ -19,8 +19,9 @@ impl DensityScheme<1> for Hybrid {
     type Column = ();
     type Rate = NoRate;
 
-    fn support(&self) -> f64 {
-        0.0
+    #[inline(always)]
+    fn extent(&self, _: usize) -> usize {
+        0
     }
 
     #[inline(always)]

@@ -31,16 +31,17 @@ pub struct Row {
 
 /// How a particle's density answers to its neighbours. Nothing else may differ between schemes.
 pub trait DensityScheme<const D: usize>: Sized + Send + Sync + 'static {
-    /// Sweeps over the neighbours that one stage takes.
+    /// Sweeps over the neighbours that one stage takes: more than one where densities are summed
+    /// before the forces, over all neighbours in reach.
     const SWEEPS: u64;
     /// Density per particle: a column, or nothing.
     type Column: Column;
     /// Density rate per particle: a number where the density is integrated, or nothing.
     type Rate: Rate;
 
-    /// Largest contact coordinate zeta at which a particle beyond the nearest one counts; zero when
-    /// only the nearest does.
-    fn support(&self) -> f64;
+    /// Index of the last particle whose density or force particle `i` takes part in; only the
+    /// nearest on each side does where this is 0.
+    fn extent(&self, i: usize) -> usize;
 
     /// Response of the particle `side` to a contact, on either side of it.
     fn row(&self, side: &Side, contact: &Contact) -> Row;

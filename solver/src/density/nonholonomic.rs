@@ -20,8 +20,9 @@ impl DensityScheme<1> for Nonholonomic {
     type Column = Vec<f64>;
     type Rate = f64;
 
-    fn support(&self) -> f64 {
-        0.0
+    #[inline(always)]
+    fn extent(&self, _: usize) -> usize {
+        0
     }
 
     #[inline(always)]

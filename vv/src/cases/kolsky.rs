@@ -248,6 +248,10 @@ impl Case for Kolsky {
         ]
     }
 
+    fn quantities(&self) -> &'static [(&'static str, &'static str)] {
+        &[("plateau", "plateau velocity, in/s"), ("overshoot", "overshoot")]
+    }
+
     fn figures(&self, records: &Records) -> Vec<Figure> {
         let mut figures = Vec::new();
         for variant in [FIXED, FREE] {

@@ -114,6 +114,12 @@ pub trait Case: Sync {
     /// The norms that the report tabulates, with their titles.
     fn tabulated(&self) -> &'static [(&'static str, &'static str)];
 
+    /// Quantities whose own convergence is studied, with their titles: what an exact solution is not
+    /// needed for.
+    fn quantities(&self) -> &'static [(&'static str, &'static str)] {
+        &[]
+    }
+
     /// Tables of the report that only this case has.
     fn extra_tables(&self, _records: &Records) -> Vec<Table> {
         Vec::new()

@@ -20,6 +20,7 @@ use crate::godunov::{self, Domain, Godunov};
 use crate::norms::{self, Norm};
 use crate::plots::{Axis, Figure, Layer, Panel, Series as Curve};
 use crate::record::{Records, RunKey, Scheme, Series};
+use crate::report::{Cell, Column, Table};
 use crate::run::{Driver, Findings, RunError};
 
 /// The case.
@@ -38,6 +39,8 @@ const SIZES: &[usize] = &[100, 200, 400, 800];
 const DRAWN: usize = 200;
 /// Where the window norm looks: both sides of the shock, away from the wall.
 const WINDOW: (f64, f64) = (0.025, 0.175);
+/// Where the density of the shocked gas is averaged.
+const PLATEAU: (f64, f64) = (0.02, 0.08);
 /// Stop times over which a norm is averaged: the shock crosses one particle meanwhile.
 const PHASES: u32 = 64;
 
@@ -68,7 +71,15 @@ const VARIANTS: &[&str] = &[
     "viscosity-pairwise",
     "reference-sound",
     "nonholonomic",
+    "support-1.5",
+    "support-1.75",
+    "support-2.25",
+    "support-2.5",
 ];
+
+/// Supports of the kernel beside its own, by variant.
+const SUPPORTS: [(&str, f64); 4] =
+    [("support-1.5", 1.5), ("support-1.75", 1.75), ("support-2.25", 2.25), ("support-2.5", 2.5)];
 
 /// A method with one choice changed.
 fn varied(method: Method, variant: &str) -> Method {
@@ -89,6 +100,9 @@ fn varied(method: Method, variant: &str) -> Method {
         "reference-sound" => m.sound_speed = SoundSpeed::Reference,
         "nonholonomic" => m.density = Density::Nonholonomic,
         _ => {}
+    }
+    if let Some((_, support)) = SUPPORTS.iter().find(|(name, _)| *name == variant) {
+        m.kernel_support = *support;
     }
     m
 }
@@ -169,6 +183,13 @@ fn exact() -> Result<Exact, RunError> {
 /// Exact state at `x`; positions behind the wall do not occur.
 fn state(exact: &Exact, x: f64, t: f64) -> Gas {
     if x < exact.shock_position(t) { exact.behind() } else { exact.ahead() }
+}
+
+/// Mean density of the shocked gas, away from wall and front.
+fn plateau_density(x: &[f64], density: &[f64]) -> f64 {
+    let inside = x.iter().zip(density).filter(|(x, _)| PLATEAU.0 < **x && **x < PLATEAU.1);
+    let (sum, count) = inside.fold((0.0, 0.0), |(sum, count), (_, rho)| (sum + rho, count + 1.0));
+    sum / count
 }
 
 /// Norms that need one time only.
@@ -266,6 +287,7 @@ impl Case for Noh {
 
         let s = driver.solver().snapshot();
         let mut findings = at_stop(&errors(&s), &s.m)?;
+        findings.norms.insert("plateau_density".into(), plateau_density(&s.x, &s.rho));
         let mut phases = Phases::default();
         phases.add(&s.x, &s.lengths(), &errors(&s))?;
         // The shock passes particles at 1/3 + 1 times their initial spacing.
@@ -314,6 +336,8 @@ impl Case for Noh {
 
         let mass: Vec<f64> = code.cells().map(|g| g.density * code.width()).collect();
         let mut findings = at_stop(&errors(&code, STOP), &mass)?;
+        let density = plateau_density(&x, &column(&code, |g| g.density));
+        findings.norms.insert("plateau_density".into(), density);
         let columns = [
             ("velocity", column(&code, |g| g.velocity)),
             ("density", column(&code, |g| g.density)),
@@ -348,6 +372,8 @@ impl Case for Noh {
             let key = |v: &&str| RunKey::new(ID, Scheme::preset(preset), DRAWN).variant(v);
             keys.extend(variants_of(preset).iter().map(key));
         }
+        let kernel = |(v, _): &(&str, f64)| RunKey::new(ID, kernel_default(), DRAWN).variant(v);
+        keys.extend(SUPPORTS.iter().map(kernel));
         keys
     }
 
@@ -386,6 +412,14 @@ impl Case for Noh {
             ("velocity_l1_window", "window L1 v"),
             ("wall_heating", "wall heating"),
         ]
+    }
+
+    fn quantities(&self) -> &'static [(&'static str, &'static str)] {
+        &[("plateau_density", "density of the shocked gas")]
+    }
+
+    fn extra_tables(&self, records: &Records) -> Vec<Table> {
+        vec![table_2_beside(records), choices(records)]
     }
 
     fn figures(&self, records: &Records) -> Vec<Figure> {
@@ -478,6 +512,95 @@ fn orders() -> Vec<Claim> {
     out
 }
 
+/// The paper's Table 2 with ours beside it.
+fn table_2_beside(records: &Records) -> Table {
+    let mut columns = vec![Column::number("n", "")];
+    for symbol in ["v", "θ"] {
+        let head = |whose: &str| Column::number(format!("{symbol}: {whose}"), "");
+        columns.push(head("paper's table"));
+        columns.push(head("`paper`"));
+        columns.push(Column::number("off", "%"));
+        columns.push(head("`default`"));
+        columns.push(head("with kernel"));
+        columns.push(head("Godunov"));
+    }
+    let row = |&(n, velocity, temperature): &(usize, f64, f64)| {
+        let norm = |scheme, name: &str| {
+            records.get(&RunKey::new(ID, scheme, n)).and_then(|r| r.norms.get(name).copied())
+        };
+        let number = |value: Option<f64>, digits| {
+            value.map_or_else(|| "–".into(), |value| Cell::number(value, digits))
+        };
+        let mut row = vec![Cell::number(n as f64, 4)];
+        for (name, printed) in [("velocity_rms", velocity), ("temperature_rms", temperature)] {
+            let [paper, default, kernel, godunov] = schemes().map(|scheme| norm(scheme, name));
+            row.push(Cell::number(printed, 5));
+            row.push(number(paper, 5));
+            row.push(number(paper.map(|p| 100.0 * (p / printed - 1.0)), 2));
+            row.extend([default, kernel, godunov].map(|value| number(value, 4)));
+        }
+        row
+    };
+    Table {
+        id: "noh-table-2".into(),
+        caption: "Table 2 of the paper: RMS norms of velocity and temperature at t = 0.3, with ours \
+                  beside them. The `paper` column replicates; the others say what else is possible at \
+                  this one phase of the shock. Godunov counts cells, of which a fifth is shocked \
+                  where four fifths of the particles are."
+            .into(),
+        columns,
+        rows: TABLE_2.iter().map(row).collect(),
+    }
+}
+
+/// What each choice is worth: both presets with one choice changed.
+fn choices(records: &Records) -> Table {
+    let norms: [(&str, &str); 5] = [
+        ("velocity_rms_phase", "n·rms² of v"),
+        ("temperature_rms_phase", "n·rms² of θ"),
+        ("wall_heating", "wall heating, %"),
+        ("velocity_l1_window", "window L1 of v"),
+        ("energy", "energy drift"),
+    ];
+    let mut columns = vec![Column::text("preset"), Column::text("one choice changed")];
+    columns.extend(norms.iter().map(|(_, title)| Column::number(*title, "")));
+    columns.push(Column::number("steps", ""));
+    let mut rows = Vec::new();
+    let changed = Preset::ALL.into_iter().flat_map(|preset| {
+        let names = std::iter::once("").chain(variants_of(preset).iter().copied());
+        names.map(move |name| (Scheme::preset(preset), name))
+    });
+    let kernels = std::iter::once("").chain(SUPPORTS.iter().map(|(name, _)| *name));
+    for (scheme, variant) in changed.chain(kernels.map(|name| (kernel_default(), name))) {
+        let key = RunKey::new(ID, scheme, DRAWN).variant(variant);
+        let Some(record) = records.get(&key) else { continue };
+        let name = if variant.is_empty() { "–" } else { variant };
+        let mut row: Vec<Cell> = vec![scheme.label().into(), name.into()];
+        for (norm, _) in norms {
+            let value = record.norms.get(norm).copied();
+            row.push(match (norm, value) {
+                ("energy", _) => Cell::number(record.energy_drift, 2),
+                (_, None) => "run failed".into(),
+                ("wall_heating", Some(value)) => Cell::number(100.0 * value, 3),
+                ("velocity_l1_window", Some(value)) => Cell::number(value, 4),
+                (_, Some(value)) => Cell::number(DRAWN as f64 * value * value, 4),
+            });
+        }
+        row.push(Cell::number(record.steps as f64, 6));
+        rows.push(row);
+    }
+    Table {
+        id: "noh-choices".into(),
+        caption: format!(
+            "What each choice is worth on the wall shock, n = {DRAWN}: both presets with one choice \
+             changed, `half-step` for the time step, and the kernel density over its support. RMS \
+             norms are phase averages."
+        ),
+        columns,
+        rows,
+    }
+}
+
 /// Schemes of the comparison figures.
 fn schemes() -> [Scheme; 4] {
     [
@@ -488,6 +611,19 @@ fn schemes() -> [Scheme; 4] {
     ]
 }
 
+/// The exact field as the corners of its step.
+fn step(exact: &Exact, field: &str) -> Vec<(f64, f64)> {
+    let of = |gas: Gas| match field {
+        "velocity" => gas.velocity,
+        "density" => gas.density,
+        "pressure" => gas.pressure,
+        _ => THETA_0 + gas.energy(),
+    };
+    let (behind, ahead) = (of(exact.behind()), of(exact.ahead()));
+    let shock = exact.shock_position(STOP);
+    vec![(0.0, behind), (shock, behind), (shock, ahead), (LENGTH - STOP, ahead)]
+}
+
 /// Figures 1 to 4 of the paper.
 fn profiles(records: &Records) -> Option<Figure> {
     let drawn: Vec<(Scheme, &Series)> = schemes()
@@ -495,7 +631,7 @@ fn profiles(records: &Records) -> Option<Figure> {
         .filter(|s| *s != kernel_default())
         .filter_map(|s| Some((s, records.get(&RunKey::new(ID, s, DRAWN))?.profile.as_ref()?)))
         .collect();
-    let finest = drawn.last()?.1;
+    let exact = exact().ok()?;
     let fields = [
         ("velocity", "velocity", "Figure 1"),
         ("density", "density", "Figure 2"),
@@ -506,8 +642,7 @@ fn profiles(records: &Records) -> Option<Figure> {
         .map(|(name, label, title)| {
             let x = Axis::linear("x").range(0.0, 0.2);
             let mut panel = Panel::new(title, x, Axis::linear(label));
-            let exact = finest.points("x", &format!("{name}_exact"));
-            panel = panel.with(Layer::exact("exact", exact));
+            panel = panel.with(Layer::exact("exact", step(&exact, name)));
             for (scheme, series) in &drawn {
                 panel = panel.with(curve(*scheme, series.points("x", name)));
             }

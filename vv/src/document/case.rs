@@ -28,6 +28,7 @@ pub(super) fn section(
     let runs: Vec<&RunRecord> = records.of_case(case.id()).collect();
     blocks.push(Block::Table(norms_table(case, &runs)));
     blocks.extend(orders_table(case, &runs).map(Block::Table));
+    blocks.extend(grid_table(case, &runs).map(Block::Table));
 
     let figures = case.figures(records);
     for figure in &figures {
@@ -67,25 +68,86 @@ fn norms_table(case: &dyn Case, runs: &[&RunRecord]) -> Table {
     }
 }
 
-/// Orders of every norm and scheme that has three sizes or more.
-fn orders_table(case: &dyn Case, runs: &[&RunRecord]) -> Option<Table> {
+/// Completed runs by scheme and variant, the coarsest first.
+fn groups<'a>(runs: &[&'a RunRecord]) -> Vec<(Scheme, &'a str, Vec<&'a RunRecord>)> {
     let mut groups: Vec<(Scheme, &str, Vec<&RunRecord>)> = Vec::new();
-    for run in runs.iter().filter(|r| r.outcome == Outcome::Completed) {
+    for run in runs.iter().copied().filter(|r| r.outcome == Outcome::Completed) {
         let key = (run.key.scheme, run.key.variant.as_str());
         match groups.iter_mut().find(|(s, v, _)| (*s, *v) == key) {
             Some((_, _, members)) => members.push(run),
             None => groups.push((key.0, key.1, vec![run])),
         }
     }
-    let mut rows = Vec::new();
-    for (scheme, variant, mut members) in groups {
+    for (_, _, members) in &mut groups {
         members.sort_by_key(|r| r.key.n);
+    }
+    groups
+}
+
+/// A quantity at all sizes of a group.
+fn levels(members: &[&RunRecord], name: &str) -> Vec<Level> {
+    let level = |r: &&RunRecord| {
+        Some(Level { spacing: 1.0 / r.key.n as f64, value: *r.norms.get(name)? })
+    };
+    members.iter().filter_map(level).collect()
+}
+
+/// Solution verification: order, limit and band of quantities that need no exact solution.
+fn grid_table(case: &dyn Case, runs: &[&RunRecord]) -> Option<Table> {
+    let mut rows = Vec::new();
+    for (scheme, variant, members) in groups(runs) {
+        for (name, title) in case.quantities() {
+            let levels = levels(&members, name);
+            if levels.len() < 3 {
+                continue;
+            }
+            let Ok(study) = convergence::grid_study(&levels[levels.len() - 3..], 1.0) else {
+                continue;
+            };
+            let number =
+                |x: Option<f64>, digits| x.map_or_else(|| "–".into(), |x| Cell::number(x, digits));
+            let mut row: Vec<Cell> = vec![scheme.label().into(), variant.into(), (*title).into()];
+            row.extend(study.levels.iter().map(|l| Cell::number(l.value, 6)));
+            row.push(number(study.observed_order, 3));
+            row.push(number(study.quoted.as_ref().map(|q| q.extrapolated), 6));
+            row.push(Cell::number(study.band(), 2));
+            row.push(format!("{:?}", study.behaviour).to_lowercase().into());
+            row.push(if study.is_asymptotic() { "yes" } else { "no" }.into());
+            rows.push(row);
+        }
+    }
+    let columns = vec![
+        Column::text("scheme"),
+        Column::text("variant"),
+        Column::text("quantity"),
+        Column::number("finest", ""),
+        Column::number("middle", ""),
+        Column::number("coarsest", ""),
+        Column::number("observed order", ""),
+        Column::number("extrapolated", ""),
+        Column::number("band ±", ""),
+        Column::text("behaviour"),
+        Column::text("asymptotic"),
+    ];
+    (!rows.is_empty()).then(|| Table {
+        id: format!("{}-grid", case.id()),
+        caption: format!(
+            "Solution verification: {}. The three finest sizes; Richardson extrapolation and grid \
+             convergence index with formal order 1. Oscillating values quote their range.",
+            case.title()
+        ),
+        columns,
+        rows,
+    })
+}
+
+/// Orders of every norm and scheme that has three sizes or more.
+fn orders_table(case: &dyn Case, runs: &[&RunRecord]) -> Option<Table> {
+    let mut rows = Vec::new();
+    for (scheme, variant, members) in groups(runs) {
         for (name, title) in case.tabulated() {
             let Some(fit) = order(&members, name) else { continue };
-            let levels: Vec<Level> = members
-                .iter()
-                .map(|r| Level { spacing: 1.0 / r.key.n as f64, value: r.norms[*name] })
-                .collect();
+            let levels = levels(&members, name);
             let pairwise = convergence::pairwise_orders(&levels).unwrap_or_default();
             let pairwise: Vec<String> = pairwise.into_iter().map(|p| sig(p, 3)).collect();
             let (low, high) = fit.interval;
