@@ -4,7 +4,15 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// Sources whose change makes a record stale.
-const WATCHED: [&str; 5] = ["../solver/src", "src/cases", "src/exact", "src/godunov", "src/run.rs"];
+const WATCHED: [&str; 7] = [
+    "../solver/src",
+    "src/cases",
+    "src/exact",
+    "src/godunov",
+    "src/godunov.rs",
+    "src/norms.rs",
+    "src/run.rs",
+];
 
 fn main() {
     let root = PathBuf::from(std::env::var_os("CARGO_MANIFEST_DIR").unwrap_or_default());
@@ -31,9 +39,15 @@ fn main() {
     let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
     let version = Command::new(rustc).arg("--version").output();
     let version = version.map(|o| String::from_utf8_lossy(&o.stdout).trim().to_owned());
-    println!("cargo::rustc-env=WHIPPLE_RUSTC={}", version.unwrap_or_else(|_| "unknown".into()));
+    println!(
+        "cargo::rustc-env=WHIPPLE_RUSTC={}",
+        version.unwrap_or_else(|_| "unknown".into())
+    );
     for name in ["PROFILE", "TARGET"] {
-        println!("cargo::rustc-env=WHIPPLE_{name}={}", std::env::var(name).unwrap_or_default());
+        println!(
+            "cargo::rustc-env=WHIPPLE_{name}={}",
+            std::env::var(name).unwrap_or_default()
+        );
     }
 }
 
@@ -41,7 +55,9 @@ fn collect(place: &Path, files: &mut Vec<PathBuf>) {
     if place.is_file() {
         return files.push(place.to_owned());
     }
-    let Ok(entries) = std::fs::read_dir(place) else { return };
+    let Ok(entries) = std::fs::read_dir(place) else {
+        return;
+    };
     for entry in entries.flatten() {
         let path = entry.path();
         if path.is_dir() || path.extension().is_some_and(|e| e == "rs") {

@@ -50,6 +50,10 @@ pub struct Side {
 #[derive(Debug, Clone, Copy)]
 struct BodyRow {
     rho_0: f64,
+    /// Contact length `2 beta h`.
+    l: f64,
+    /// Initial density over the reference density.
+    compression: f64,
     material: u16,
     /// Bodies that are joined are one medium.
     medium: u16,
@@ -59,7 +63,6 @@ struct BodyRow {
 #[derive(Debug)]
 pub struct Chain {
     m: Vec<f64>,
-    l: Vec<f64>,
     body: Vec<u16>,
     rows: Vec<BodyRow>,
     walls: [Option<f64>; 2],
@@ -74,14 +77,19 @@ impl Chain {
     pub(crate) fn new(scene: &Scene, far: bool) -> (Self, Vec<f64>) {
         let n = scene.particles();
         let images = if far { IMAGES } else { 2 }.min(n);
-        let wall = |b| if let Boundary::Mirror(x) = b { Some(x) } else { None };
+        let wall = |b| {
+            if let Boundary::Mirror(x) = b {
+                Some(x)
+            } else {
+                None
+            }
+        };
         let walls = [wall(scene.boundaries.left), wall(scene.boundaries.right)];
         let [before, behind] = walls.map(|w| if w.is_some() { images } else { 0 });
 
         let total = before + n + behind;
         let mut chain = Self {
             m: vec![0.0; total],
-            l: vec![0.0; total],
             body: vec![0; total],
             rows: Vec::with_capacity(scene.bodies.len()),
             walls,
@@ -93,21 +101,19 @@ impl Chain {
         let mut i = before;
         for (k, body) in scene.bodies.iter().enumerate() {
             chain.rows.push(chain.row(scene, k, body));
-            let length = body.compression * body.cell();
-            chain.longest = chain.longest.max(length);
-            let cell_mass = chain.rows[k].rho_0 * length;
+            let BodyRow { rho_0, l, .. } = chain.rows[k];
+            chain.longest = chain.longest.max(l);
+            let cell_mass = rho_0 * l;
             for p in 0..body.particles {
                 let (position, share) = body.particle(p);
                 x[i] = position;
                 chain.m[i] = share * cell_mass;
-                chain.l[i] = length;
                 chain.body[i] = k as u16;
                 i += 1;
             }
         }
         for (image, of) in chain.images().collect::<Vec<_>>() {
             chain.m[image] = chain.m[of];
-            chain.l[image] = chain.l[of];
             chain.body[image] = chain.body[of];
         }
         (chain, x)
@@ -121,7 +127,16 @@ impl Chain {
             (_, Interface::Joined) => self.rows[k - 1].medium,
             (_, Interface::Contact) => self.rows[k - 1].medium + 1,
         };
-        BodyRow { rho_0: scene.materials[material].density, material: material as u16, medium }
+        let rho_0 = scene.materials[material].density;
+        let l = body.compression * body.cell();
+        let compression = body.compression;
+        BodyRow {
+            rho_0,
+            l,
+            compression,
+            material: material as u16,
+            medium,
+        }
     }
 
     /// Number of particles, images included.
@@ -168,6 +183,18 @@ impl Chain {
         self.rows[usize::from(self.body[i])].rho_0
     }
 
+    /// Initial density of particle `i` over its reference density.
+    #[must_use]
+    pub fn compression(&self, i: usize) -> f64 {
+        self.rows[usize::from(self.body[i])].compression
+    }
+
+    /// Whether there are images on the left and on the right.
+    #[must_use]
+    pub fn walled(&self) -> [bool; 2] {
+        self.walls.map(|wall| wall.is_some())
+    }
+
     /// Index of the material of particle `i`.
     #[inline(always)]
     #[must_use]
@@ -181,6 +208,16 @@ impl Chain {
         usize::from(self.body[i])
     }
 
+    /// Whether all particles of a range are of one body.
+    #[inline(always)]
+    #[must_use]
+    pub fn one_body(&self, range: std::ops::Range<usize>) -> bool {
+        let bodies = &self.body[range];
+        bodies
+            .iter()
+            .fold(true, |same, &body| same & (body == bodies[0]))
+    }
+
     /// Whether two particles belong to one continuous medium.
     #[must_use]
     pub fn joined(&self, a: usize, b: usize) -> bool {
@@ -192,8 +229,23 @@ impl Chain {
     #[inline(always)]
     #[must_use]
     pub fn side(&self, i: usize, rho: f64, u: f64) -> Side {
-        let BodyRow { rho_0, material, medium } = self.rows[usize::from(self.body[i])];
-        Side { index: i, m: self.m[i], l: self.l[i], rho_0, material, medium, rho, u }
+        let BodyRow {
+            rho_0,
+            l,
+            material,
+            medium,
+            ..
+        } = self.rows[usize::from(self.body[i])];
+        Side {
+            index: i,
+            m: self.m[i],
+            l,
+            rho_0,
+            material,
+            medium,
+            rho,
+            u,
+        }
     }
 
     /// A particle and one on its right at the distance `r`.
@@ -206,27 +258,41 @@ impl Chain {
         let joined = left.medium == right.medium;
         let bonded = neighbours && joined;
         let nearest = bonded || (neighbours && zeta < 1.0);
-        Contact { r, length, zeta, nearest, bonded, joined }
+        Contact {
+            r,
+            length,
+            zeta,
+            nearest,
+            bonded,
+            joined,
+        }
     }
 
     /// The pair of particle `a` and a particle `b` on its right, at these positions.
     #[must_use]
     pub fn contact_at(&self, x: &[f64], a: usize, b: usize) -> Contact {
-        self.contact(&self.side(a, 0.0, 0.0), &self.side(b, 0.0, 0.0), x[b] - x[a])
+        self.contact(
+            &self.side(a, 0.0, 0.0),
+            &self.side(b, 0.0, 0.0),
+            x[b] - x[a],
+        )
     }
 
     /// Contact length of particle `i`.
     #[inline(always)]
     #[must_use]
     pub fn length(&self, i: usize) -> f64 {
-        self.l[i]
+        self.rows[usize::from(self.body[i])].l
     }
 
     /// Contact coordinates of the one or two nearest neighbours that particle `i` touches.
     pub fn touching<'a>(&'a self, x: &'a [f64], i: usize) -> impl Iterator<Item = f64> + 'a {
         let left = (i > 0).then(|| self.contact_at(x, i - 1, i));
         let right = (i + 1 < self.len()).then(|| self.contact_at(x, i, i + 1));
-        left.into_iter().chain(right).filter(|c| c.nearest).map(|c| c.zeta)
+        left.into_iter()
+            .chain(right)
+            .filter(|c| c.nearest)
+            .map(|c| c.zeta)
     }
 
     /// Images and what they are images of, as pairs of indices.

@@ -15,8 +15,12 @@ pub struct SceneError {
 }
 
 impl SceneError {
-    pub(crate) fn new(key: impl Into<String>, value: impl ToString, wanted: &str) -> Self {
-        Self { key: key.into(), value: value.to_string(), wanted: wanted.to_owned() }
+    pub(crate) fn new(key: impl Into<String>, value: impl std::fmt::Display, wanted: &str) -> Self {
+        Self {
+            key: key.into(),
+            value: value.to_string(),
+            wanted: wanted.to_owned(),
+        }
     }
 }
 
@@ -93,8 +97,9 @@ pub enum StepError {
     },
     /// More neighbours in range than there is room for.
     #[error(
-        "particle {particle} has more than {room} neighbours on one side in range at t = {time:.6e}: \
-         the compression is too strong for pairs in contact range"
+        "particle {particle} has more neighbours in range than there is room for at t = {time:.6e} \
+         ({room} on a side, or the images of a wall): the compression is too strong for pairs in \
+         contact range"
     )]
     Neighbours {
         /// Index of the particle.

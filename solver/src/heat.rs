@@ -17,7 +17,12 @@ pub trait Heat: Send + Sync + 'static {
     fn support(&self) -> f64;
 
     /// Heat transfer coefficient `R` of Eq. (57), power per temperature difference.
-    fn transfer<E: Eos>(&self, contact: &Contact, closing: &Closing, sides: [(&Side, &E); 2]) -> f64;
+    fn transfer<E: Eos>(
+        &self,
+        contact: &Contact,
+        closing: &Closing,
+        sides: [(&Side, &E); 2],
+    ) -> f64;
 }
 
 /// No conduction: no code.
@@ -44,37 +49,56 @@ impl Heat for Adiabatic {
 /// Conduction: the heat `R (theta_i - theta_j)` flows from i to j, Eq. (56).
 #[derive(Debug, Clone, Copy)]
 pub struct ArtificialConduction {
-    form: Conduction,
-    coefficient: f64,
+    /// `k_o` of Eq. (57); zero in the shock form.
+    linear: f64,
+    /// Its counterpart in the shock form; zero in the linear one.
+    shock: f64,
 }
 
 impl Heat for ArtificialConduction {
     const CONDUCTS: bool = true;
 
     fn new(method: &Method) -> Self {
-        Self { form: method.conduction, coefficient: method.heat_coeff }
+        let of = |form| {
+            if method.conduction == form {
+                method.heat_coeff
+            } else {
+                0.0
+            }
+        };
+        Self {
+            linear: of(Conduction::Linear),
+            shock: of(Conduction::Shock),
+        }
     }
 
     fn support(&self) -> f64 {
-        if self.form == Conduction::Linear { 1.0 } else { 0.0 }
+        if self.linear > 0.0 { 1.0 } else { 0.0 }
     }
 
     /// Eq. (57) with area 1 for `V_o^(2/3)`, for pairs with `zeta < 1`; or the shock form
     /// `k rho c_v j` with `j` the limited jump, which leaves contact discontinuities alone
     /// (decision 0006).
     #[inline(always)]
-    fn transfer<E: Eos>(&self, contact: &Contact, closing: &Closing, sides: [(&Side, &E); 2]) -> f64 {
+    fn transfer<E: Eos>(
+        &self,
+        contact: &Contact,
+        closing: &Closing,
+        sides: [(&Side, &E); 2],
+    ) -> f64 {
         let mean = |pair: [f64; 2]| 0.5 * (pair[0] + pair[1]);
         let per_side = |k: usize| sides[k].0.rho_0 * closing.sound[k] * sides[k].1.c_v();
-        match self.form {
-            Conduction::Linear if contact.zeta < 1.0 => {
-                self.coefficient * mean([per_side(0), per_side(1)])
-            }
-            Conduction::Shock if contact.nearest => {
-                let c_v = mean(sides.map(|s| s.1.c_v()));
-                self.coefficient * mean(closing.rho) * c_v * closing.jump.max(0.0)
-            }
-            _ => 0.0,
-        }
+        let linear = if contact.zeta < 1.0 {
+            mean([per_side(0), per_side(1)])
+        } else {
+            0.0
+        };
+        let c_v = mean(sides.map(|s| s.1.c_v()));
+        let jump = if contact.nearest {
+            closing.jump.max(0.0)
+        } else {
+            0.0
+        };
+        self.linear * linear + self.shock * mean(closing.rho) * c_v * jump
     }
 }

@@ -37,6 +37,15 @@ impl ViscousLaw {
         }
     }
 
+    /// The law of a run in which only nearest neighbours act: the limited form.
+    #[inline(always)]
+    pub(crate) fn near(self) -> Self {
+        Self {
+            form: Viscosity::Limited,
+            ..self
+        }
+    }
+
     /// Largest zeta at which pairs beyond the nearest feel it.
     pub(crate) fn support(&self) -> f64 {
         match self.form {
@@ -66,12 +75,16 @@ impl ViscousLaw {
         match self.form {
             Viscosity::Pairwise => self.pairwise(contact, closing, sides),
             Viscosity::Limited if contact.nearest => {
-                if closing.jump > 0.0 {
-                    self.compression(closing, sides)
-                } else if contact.bonded {
+                let compression = self.compression(closing, sides);
+                let recession = if contact.bonded {
                     self.recession(closing)
                 } else {
                     0.0
+                };
+                if closing.jump > 0.0 {
+                    compression
+                } else {
+                    recession
                 }
             }
             Viscosity::Limited => 0.0,
@@ -89,9 +102,9 @@ impl ViscousLaw {
     ) -> f64 {
         match self.form {
             Viscosity::Pairwise => self.pairwise(contact, closing, sides),
-            Viscosity::Limited if contact.nearest => {
-                self.compression(closing, sides).max(self.recession(closing))
-            }
+            Viscosity::Limited if contact.nearest => self
+                .compression(closing, sides)
+                .max(self.recession(closing)),
             Viscosity::Limited => 0.0,
         }
     }
@@ -152,11 +165,9 @@ impl ViscousLaw {
 #[inline(always)]
 #[must_use]
 pub fn unexplained([before, own, after]: [f64; 3], steepness: f64) -> f64 {
+    // Both sides are computed and one is taken, so that many pairs can be looked at at once.
     let product = before * after;
-    if product > 0.0 && before * own > 0.0 {
-        let phi = steepness * product / ((before + after) * own);
-        own * (1.0 - phi.min(1.0))
-    } else {
-        own
-    }
+    let alike = (product > 0.0) & (before * own > 0.0);
+    let phi = (steepness * product / ((before + after) * own)).min(1.0);
+    own - if alike { own * phi } else { 0.0 }
 }

@@ -177,14 +177,17 @@ pub struct Verdict {
     pub status: Status,
     /// Whether a record is older than the solver.
     pub stale: bool,
-    /// Why a run failed.
+    /// How a run failed.
     pub note: String,
 }
 
 /// Judges claims by records.
 #[must_use]
 pub fn judge(claims: Vec<Claim>, records: &Records) -> Vec<Verdict> {
-    claims.into_iter().map(|claim| verdict(claim, records)).collect()
+    claims
+        .into_iter()
+        .map(|claim| verdict(claim, records))
+        .collect()
 }
 
 fn verdict(claim: Claim, records: &Records) -> Verdict {
@@ -192,7 +195,7 @@ fn verdict(claim: Claim, records: &Records) -> Verdict {
     let found: Vec<&RunRecord> = keys.iter().filter_map(|k| records.get(k)).collect();
     let stale = found.iter().any(|r| r.provenance.is_stale());
     let failed = found.iter().find_map(|r| match &r.outcome {
-        Outcome::Failed { message, .. } => Some(message.clone()),
+        Outcome::Failed { kind, .. } => Some(kind.clone()),
         Outcome::Completed => None,
     });
     let mut out = Verdict {
@@ -206,8 +209,12 @@ fn verdict(claim: Claim, records: &Records) -> Verdict {
     if found.len() < keys.len() {
         return out;
     }
-    if let Some(message) = failed {
-        return Verdict { status: Status::Fail, note: message, ..out };
+    if let Some(kind) = failed {
+        return Verdict {
+            status: Status::Fail,
+            note: kind,
+            ..out
+        };
     }
     (out.value, out.fit) = out.claim.quantity.evaluate(&found);
     out.status = match out.value {
@@ -257,7 +264,12 @@ impl Quantity {
 pub fn order(runs: &[&RunRecord], name: &str) -> Option<OrderFit> {
     let levels: Option<Vec<Level>> = runs
         .iter()
-        .map(|r| Some(Level { spacing: 1.0 / r.key.n as f64, value: *r.norms.get(name)? }))
+        .map(|r| {
+            Some(Level {
+                spacing: 1.0 / r.key.n as f64,
+                value: *r.norms.get(name)?,
+            })
+        })
         .collect();
     convergence::fitted_order(&levels?).ok()
 }

@@ -179,7 +179,10 @@ struct Failure {
 
 impl Failure {
     fn usage(message: impl std::fmt::Display) -> Self {
-        Self { code: WRONG_USE, message: message.to_string() }
+        Self {
+            code: WRONG_USE,
+            message: message.to_string(),
+        }
     }
 }
 
@@ -191,7 +194,10 @@ impl From<crate::run::RunError> for Failure {
             E::Step(_) | E::Norm(_) | E::Godunov(_) => NUMERICAL_FAILURE,
             E::Scene(_) | E::Reference(_) | E::NotThere { .. } => WRONG_USE,
         };
-        Self { code, message: error.to_string() }
+        Self {
+            code,
+            message: error.to_string(),
+        }
     }
 }
 
@@ -200,7 +206,10 @@ impl From<crate::suite::SuiteError> for Failure {
         match error {
             crate::suite::SuiteError::Run { key, source } => {
                 let inner = Self::from(source);
-                Self { code: inner.code, message: format!("{key}: {}", inner.message) }
+                Self {
+                    code: inner.code,
+                    message: format!("{key}: {}", inner.message),
+                }
             }
             other => Self::usage(other),
         }
@@ -253,9 +262,9 @@ pub fn main() -> u8 {
 fn print(text: &str) -> Result<(), Failure> {
     let mut out = std::io::stdout().lock();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
-        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
-            Err(Failure::usage(format!("cannot write to standard output: {error}")))
-        }
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(Failure::usage(
+            format!("cannot write to standard output: {error}"),
+        )),
         _ => Ok(()),
     }
 }
@@ -282,7 +291,10 @@ mod tests {
         insta::assert_snapshot!("help", command.render_long_help());
         for name in ["run", "vv", "report", "bench"] {
             let sub = command.find_subcommand_mut(name).expect("a command");
-            insta::assert_snapshot!(format!("help_{name}"), sub.clone().term_width(90).render_long_help());
+            insta::assert_snapshot!(
+                format!("help_{name}"),
+                sub.clone().term_width(90).render_long_help()
+            );
         }
     }
 }

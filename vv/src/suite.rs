@@ -50,7 +50,9 @@ pub fn records_folder(report: &Path) -> PathBuf {
 /// The scene of a run, overrides apart.
 #[must_use]
 pub fn scene_of(case: &dyn Case, key: &RunKey) -> Option<Scene> {
-    let Scheme::Particles { preset, density } = key.scheme else { return None };
+    let Scheme::Particles { preset, density } = key.scheme else {
+        return None;
+    };
     let mut scene = case.scene(preset, &key.variant, key.n);
     // A variant may choose a density of its own; a scheme that differs from the preset's wins.
     if density != preset.method().density {
@@ -105,7 +107,12 @@ pub fn run_suite(
                 key,
             };
             let result = run(*case, request, monitor);
-            let mut record = result.map_err(|source| SuiteError::Run { key: file.clone(), source })?.record;
+            let mut record = result
+                .map_err(|source| SuiteError::Run {
+                    key: file.clone(),
+                    source,
+                })?
+                .record;
             if !case.draws(&record.key) {
                 record.profile = None;
                 record.history = None;

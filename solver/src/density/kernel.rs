@@ -86,7 +86,13 @@ impl Kernel {
     pub fn new(support: f64) -> Self {
         let (reference, stiffness) = (Vec::new(), Vec::new());
         let (reach, extent) = (Vec::new(), Vec::new());
-        Self { spline: Spline { support }, reference, stiffness, reach, extent }
+        Self {
+            spline: Spline { support },
+            reference,
+            stiffness,
+            reach,
+            extent,
+        }
     }
 
     /// Calls `visit` with the contact coordinates of particle `i` in reach at compression `chi`,
@@ -116,7 +122,12 @@ impl Kernel {
     /// Newton's method on the constraint, which falls monotonically with `chi`.
     fn solve(&self, chain: &Chain, x: &[f64], i: usize, guess: f64) -> Solved {
         let wanted = self.reference[i];
-        let mut at = Solved { chi: guess, stiffness: 0.0, reach: [i as u32; 2], evaluations: 0 };
+        let mut at = Solved {
+            chi: guess,
+            stiffness: 0.0,
+            reach: [i as u32; 2],
+            evaluations: 0,
+        };
         for _ in 0..MOST_ITERATIONS {
             let (chi, mut sum, mut stiffness) = (at.chi, 1.0, 0.0);
             let mut evaluations = 0;
@@ -162,18 +173,24 @@ impl DensityScheme<1> for Kernel {
         let chi = side.rho / side.rho_0;
         let pull = -self.spline.gradient(chi * contact.zeta) / self.stiffness[side.index];
         let slope = side.rho * pull / contact.length;
-        Row { rho: side.rho, lever: side.m / (side.rho * side.rho) * slope, slope }
+        Row {
+            rho: side.rho,
+            lever: side.m / (side.rho * side.rho) * slope,
+            slope,
+        }
     }
 
     fn start(&mut self, chain: &Chain, x: &[f64], column: &mut Vec<f64>) {
         let n = x.len();
         self.reference = (0..n)
             .map(|i| {
+                let chi = chain.compression(i);
                 let own = |j: &usize| chain.joined(i, *j);
                 let left = (0..i).rev().take_while(own);
                 let right = (i + 1..n).take_while(own);
                 let weight = |j: usize| {
-                    self.spline.weight(chain.contact_at(x, i.min(j), i.max(j)).zeta)
+                    self.spline
+                        .weight(chi * chain.contact_at(x, i.min(j), i.max(j)).zeta)
                 };
                 let near = |w: &f64| *w > 0.0;
                 1.0 + left.map(weight).take_while(near).sum::<f64>()
@@ -184,27 +201,30 @@ impl DensityScheme<1> for Kernel {
         self.reach = vec![[0; 2]; n];
         self.extent = vec![0; n];
         for (i, rho) in column.iter_mut().enumerate() {
-            *rho = chain.rho_0(i);
+            *rho = chain.compression(i) * chain.rho_0(i);
         }
         self.resum(chain, x, column, &mut Counters::default());
     }
 
     /// The sweep that the paper's scheme removes.
     fn resum(&mut self, chain: &Chain, x: &[f64], column: &mut Vec<f64>, counters: &mut Counters) {
-        let (mut stiffness, mut reach) =
-            (std::mem::take(&mut self.stiffness), std::mem::take(&mut self.reach));
-        let solve = |start: usize, rho: &mut [f64], stiffness: &mut [f64], reach: &mut [[u32; 2]]| {
-            let mut evaluations = 0;
-            for (k, rho) in rho.iter_mut().enumerate() {
-                let i = start + k;
-                let found = self.solve(chain, x, i, *rho / chain.rho_0(i));
-                *rho = found.chi * chain.rho_0(i);
-                stiffness[k] = found.stiffness;
-                reach[k] = found.reach;
-                evaluations += found.evaluations;
-            }
-            evaluations
-        };
+        let (mut stiffness, mut reach) = (
+            std::mem::take(&mut self.stiffness),
+            std::mem::take(&mut self.reach),
+        );
+        let solve =
+            |start: usize, rho: &mut [f64], stiffness: &mut [f64], reach: &mut [[u32; 2]]| {
+                let mut evaluations = 0;
+                for (k, rho) in rho.iter_mut().enumerate() {
+                    let i = start + k;
+                    let found = self.solve(chain, x, i, *rho / chain.rho_0(i));
+                    *rho = found.chi * chain.rho_0(i);
+                    stiffness[k] = found.stiffness;
+                    reach[k] = found.reach;
+                    evaluations += found.evaluations;
+                }
+                evaluations
+            };
         let evaluations: u64 = if column.len() <= CHUNK {
             solve(0, column, &mut stiffness, &mut reach)
         } else {

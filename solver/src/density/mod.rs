@@ -50,7 +50,13 @@ pub trait DensityScheme<const D: usize>: Sized + Send + Sync + 'static {
     fn start(&mut self, chain: &Chain, x: &[f64], column: &mut Self::Column);
 
     /// Recomputes the densities from the positions, where the scheme works that way.
-    fn resum(&mut self, chain: &Chain, x: &[f64], column: &mut Self::Column, counters: &mut Counters);
+    fn resum(
+        &mut self,
+        chain: &Chain,
+        x: &[f64],
+        column: &mut Self::Column,
+        counters: &mut Counters,
+    );
 
     /// Density of particle `i` for output.
     fn report(&self, chain: &Chain, x: &[f64], column: &Self::Column, i: usize) -> f64;

@@ -2,4 +2,4 @@
 
 mod segment;
 
-pub use segment::{NoSolid, Segments, Solid};
+pub use segment::{NoSolid, Segments, Solid, series};

@@ -53,3 +53,10 @@ impl Solid for Segments {
         -bulk * (zeta - 1.0).max(0.0)
     }
 }
+
+/// Stiffness of a segment whose halves have these moduli.
+#[inline(always)]
+#[must_use]
+pub fn series(a: f64, b: f64) -> f64 {
+    2.0 * a * b / (a + b)
+}

@@ -6,7 +6,9 @@ use whipple_solver::scene::{
 };
 use whipple_solver::units::Units;
 
-use super::{Case, Claim, Claims, Kind, Level, Quantity, Wanted, Weight, both_presets, conservation};
+use super::{
+    Case, Claim, Claims, Kind, Level, Quantity, Wanted, Weight, both_presets, conservation,
+};
 use crate::exact::collision::{Block, collide};
 use crate::plots::{Axis, Figure, Layer, Panel, Series as Curve};
 use crate::record::{Records, RunKey, Scheme, Series};
@@ -33,7 +35,12 @@ fn wave_speed() -> f64 {
 }
 
 fn block(velocity: f64) -> Block {
-    Block { length: LENGTH, density: DENSITY, wave_speed: wave_speed(), velocity }
+    Block {
+        length: LENGTH,
+        density: DENSITY,
+        wave_speed: wave_speed(),
+        velocity,
+    }
 }
 
 impl Case for BlockCollision {
@@ -79,11 +86,18 @@ impl Case for BlockCollision {
             units: Units::CmGUsMbar,
             stop_time: GAP / speed + TRANSITS * LENGTH / wave_speed(),
             method,
-            boundaries: Boundaries { left: Boundary::Free, right: Boundary::Free },
+            boundaries: Boundaries {
+                left: Boundary::Free,
+                right: Boundary::Free,
+            },
             materials: vec![Material {
                 name: "steel".into(),
                 density: DENSITY,
-                eos: EosData::Linear { bulk: BULK, c_v: 0.448e-5, theta_0: 300.0 },
+                eos: EosData::Linear {
+                    bulk: BULK,
+                    c_v: 0.448e-5,
+                    theta_0: 300.0,
+                },
             }],
             bodies: vec![body(0.0, n / 2, speed), body(LENGTH + GAP, n - n / 2, 0.0)],
         }
@@ -96,7 +110,8 @@ impl Case for BlockCollision {
         driver: &mut Driver<'_>,
     ) -> Result<Findings, RunError> {
         let speed = MACH * wave_speed();
-        let exact = collide(block(speed), block(0.0)).map_err(|e| RunError::Reference(e.to_string()))?;
+        let exact =
+            collide(block(speed), block(0.0)).map_err(|e| RunError::Reference(e.to_string()))?;
         let first = key.n / 2;
         let mean = |v: &dyn Fn(usize) -> f64, range: std::ops::Range<usize>| {
             let count = range.len() as f64;
@@ -116,10 +131,19 @@ impl Case for BlockCollision {
         let (a, b) = (mean(&|i| s.v[i], 0..first), mean(&|i| s.v[i], first..key.n));
         let mut findings = Findings::default();
         let mut enter = |name: &str, value| findings.norms.insert(name.into(), value);
-        enter("left_velocity_error", (a - exact.left_velocity / speed).abs());
-        enter("right_velocity_error", (b - exact.right_velocity / speed).abs());
+        enter(
+            "left_velocity_error",
+            (a - exact.left_velocity / speed).abs(),
+        );
+        enter(
+            "right_velocity_error",
+            (b - exact.right_velocity / speed).abs(),
+        );
         enter("left_as_vibration_and_heat", 1.0 - a * a - b * b);
-        enter("separation", (s.x[first] - s.x[first - 1]) / (LENGTH / first as f64) - 1.0);
+        enter(
+            "separation",
+            (s.x[first] - s.x[first - 1]) / (LENGTH / first as f64) - 1.0,
+        );
         let mut series = Series::default();
         series.0.insert("time".into(), time);
         series.0.insert("left".into(), left);
@@ -129,14 +153,23 @@ impl Case for BlockCollision {
     }
 
     fn runs(&self, level: Level) -> Vec<RunKey> {
-        let sizes = if level == Level::Quick { &SIZES[1..2] } else { SIZES };
+        let sizes = if level == Level::Quick {
+            &SIZES[1..2]
+        } else {
+            SIZES
+        };
         let mut keys = both_presets(ID, sizes);
-        keys.push(RunKey::new(ID, super::kernel_default(), self.default_size()));
+        keys.push(RunKey::new(
+            ID,
+            super::kernel_default(),
+            self.default_size(),
+        ));
         keys
     }
 
     fn claims(&self) -> Vec<Claim> {
-        let study = "1D study, section 5: at most 5.7 % with c_o = 1, 1.8 % with the limited viscosity";
+        let study =
+            "1D study, section 5: at most 5.7 % with c_o = 1, 1.8 % with the limited viscosity";
         let must = Claims::new(ID, Kind::Verification, Weight::Must, study);
         let key = RunKey::new(ID, Scheme::preset(Preset::Default), 200);
         let norm = |name| Quantity::Norm(key.clone(), name);
@@ -171,11 +204,16 @@ impl Case for BlockCollision {
     }
 
     fn figures(&self, records: &Records) -> Vec<Figure> {
-        let axes = (Axis::linear("time, µs"), Axis::linear("mean velocity of a block / V"));
+        let axes = (
+            Axis::linear("time, µs"),
+            Axis::linear("mean velocity of a block / V"),
+        );
         let mut panel = Panel::new("", axes.0, axes.1);
         for preset in Preset::ALL {
             let key = RunKey::new(ID, Scheme::preset(preset), self.default_size());
-            let Some(history) = records.get(&key).and_then(|r| r.history.as_ref()) else { continue };
+            let Some(history) = records.get(&key).and_then(|r| r.history.as_ref()) else {
+                continue;
+            };
             for (column, which) in [("left", "first"), ("right", "second")] {
                 let name = format!("{which}, {}", preset.name());
                 panel = panel.with(Curve::line(name, history.points("time", column)));

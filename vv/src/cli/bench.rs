@@ -9,7 +9,10 @@ impl From<CostError> for Failure {
     fn from(error: CostError) -> Self {
         match error {
             CostError::Scene(error) => Self::usage(error),
-            CostError::Step(error) => Self { code: NUMERICAL_FAILURE, message: error.to_string() },
+            CostError::Step(error) => Self {
+                code: NUMERICAL_FAILURE,
+                message: error.to_string(),
+            },
         }
     }
 }
@@ -20,13 +23,22 @@ pub(super) fn bench(args: &BenchArgs) -> Result<u8, Failure> {
     let with = |density, support| Contender { density, support };
     let paper = with(Density::Nonholonomic, natural);
     let rows = [
-        ("kernel, equal contact list", with(Density::Kernel, EQUAL_LIST)),
+        (
+            "kernel, equal contact list",
+            with(Density::Kernel, EQUAL_LIST),
+        ),
         ("kernel, natural support", with(Density::Kernel, natural)),
         ("hybrid", with(Density::Hybrid, natural)),
     ];
     let head = format!(
         "{:<12} {:<28} {:>8} {:>17} {:>12} {:>12} {:>12}\n",
-        "integrator", "against nonholonomic", "ratio", "spread", "ns/particle", "ns/pair", "A: ns/part."
+        "integrator",
+        "against nonholonomic",
+        "ratio",
+        "spread",
+        "ns/particle",
+        "ns/pair",
+        "A: ns/part."
     );
     print(&head)?;
     for integrator in [Integrator::SinglePass, Integrator::Compatible] {
@@ -35,7 +47,9 @@ pub(super) fn bench(args: &BenchArgs) -> Result<u8, Failure> {
             print(&row(integrator, name, &found))?;
         }
     }
-    print("CPU time, medians over A B B A rounds; ns per particle and step, and per pair and step.\n")?;
+    print(
+        "CPU time, medians over A B B A rounds; ns per particle and step, and per pair and step.\n",
+    )?;
     Ok(0)
 }
 

@@ -23,16 +23,22 @@ pub(super) fn vv(args: &VvArgs) -> Result<u8, Failure> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
     let pool = pool.map_err(|e| Failure::usage(format!("cannot start a thread: {e}")))?;
     let ended = pool.install(|| {
-        run_suite(&cases, args.level, &args.out, &progress, |key, record| match record {
-            None => progress.start(&key.file_name()),
-            Some(record) => {
-                let how = match &record.outcome {
-                    Outcome::Completed => format!("{:.2} s", record.cpu_seconds),
-                    Outcome::Failed { message, .. } => format!("failed: {message}"),
-                };
-                say(&format!("{:<52} {how}", key.file_name()));
-            }
-        })
+        run_suite(
+            &cases,
+            args.level,
+            &args.out,
+            &progress,
+            |key, record| match record {
+                None => progress.start(&key.file_name()),
+                Some(record) => {
+                    let how = match &record.outcome {
+                        Outcome::Completed => format!("{:.2} s", record.cpu_seconds),
+                        Outcome::Failed { message, .. } => format!("failed: {message}"),
+                    };
+                    say(&format!("{:<52} {how}", key.file_name()));
+                }
+            },
+        )
     });
     progress.done();
     ended?;
@@ -52,7 +58,8 @@ pub(super) fn report(args: &ReportArgs) -> Result<u8, Failure> {
 
 /// Compares the report with a fresh one.
 fn check(folder: &Path) -> Result<u8, Failure> {
-    let fresh = tempfile::tempdir().map_err(|e| Failure::usage(format!("no temporary folder: {e}")))?;
+    let fresh =
+        tempfile::tempdir().map_err(|e| Failure::usage(format!("no temporary folder: {e}")))?;
     let (page, figures, _) = made(folder)?;
     report::write(&page, &figures, fresh.path()).map_err(Failure::usage)?;
     let mut differing = Vec::new();
@@ -62,7 +69,10 @@ fn check(folder: &Path) -> Result<u8, Failure> {
         return Ok(0);
     }
     let list = differing.join(", ");
-    Err(Failure { code: CLAIM_FAILED, message: format!("not what the records give: {list}") })
+    Err(Failure {
+        code: CLAIM_FAILED,
+        message: format!("not what the records give: {list}"),
+    })
 }
 
 fn compare(
@@ -94,7 +104,10 @@ fn made(folder: &Path) -> Result<Made, Failure> {
     let (page, figures) = document::compose(&records, &verdicts);
     let mut drawings = BTreeMap::new();
     for figure in &figures {
-        drawings.insert(figure.id.clone(), plots::render_svg(figure).map_err(Failure::usage)?);
+        drawings.insert(
+            figure.id.clone(),
+            plots::render_svg(figure).map_err(Failure::usage)?,
+        );
     }
     Ok((page, drawings, verdicts))
 }
@@ -115,7 +128,9 @@ fn conclude<'a>(verdicts: impl Iterator<Item = &'a Verdict>, out: &Path) -> Resu
             Status::Missing => missing += 1,
             Status::Fail => {
                 failed += 1;
-                let value = verdict.value.map_or(verdict.note.clone(), |v| report::sig(v, 4));
+                let value = verdict
+                    .value
+                    .map_or(verdict.note.clone(), |v| report::sig(v, 4));
                 let (case, what) = (verdict.claim.case, &verdict.claim.what);
                 let wanted = verdict.claim.wanted.text();
                 text += &format!("FAILED  {case}: {what}: {value}, wanted {wanted}\n");

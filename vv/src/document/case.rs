@@ -7,7 +7,7 @@ use crate::plots::Figure;
 use crate::record::{Outcome, Records, RunRecord, Scheme};
 use crate::report::{Block, Cell, Column, Section, Table, sig};
 
-use super::front::claims_table;
+use super::front::{claims_table, escaped};
 
 /// Section and figures of a case.
 pub(super) fn section(
@@ -19,35 +19,73 @@ pub(super) fn section(
         Block::Paragraph(case.about().into()),
         Block::Paragraph(format!("*Source:* {}.", case.source())),
     ];
-    let claims: Vec<&Verdict> = verdicts.iter().filter(|v| v.claim.case == case.id()).collect();
+    let claims: Vec<&Verdict> = verdicts
+        .iter()
+        .filter(|v| v.claim.case == case.id())
+        .collect();
     if !claims.is_empty() {
         let id = format!("{}-claims", case.id());
-        blocks.push(Block::Table(claims_table(&id, &format!("Claims: {}.", case.title()), &claims)));
+        blocks.push(Block::Table(claims_table(
+            &id,
+            &format!("Claims: {}.", case.title()),
+            &claims,
+        )));
     }
     blocks.extend(case.extra_tables(records).into_iter().map(Block::Table));
     let runs: Vec<&RunRecord> = records.of_case(case.id()).collect();
     blocks.push(Block::Table(norms_table(case, &runs)));
+    let failures: Vec<String> = runs.iter().filter_map(|r| failure(r)).collect();
+    if !failures.is_empty() {
+        blocks.push(Block::Paragraph(
+            "Runs that ended in a numerical failure:".into(),
+        ));
+        blocks.push(Block::List(failures));
+    }
     blocks.extend(orders_table(case, &runs).map(Block::Table));
     blocks.extend(grid_table(case, &runs).map(Block::Table));
 
     let figures = case.figures(records);
     for figure in &figures {
-        blocks.push(Block::Figure { id: figure.id.clone(), caption: figure.caption.clone() });
+        blocks.push(Block::Figure {
+            id: figure.id.clone(),
+            caption: figure.caption.clone(),
+        });
     }
     (Section::new(case.id(), case.title(), blocks), figures)
 }
 
+/// A run that failed, in words.
+fn failure(record: &RunRecord) -> Option<String> {
+    let Outcome::Failed { message, .. } = &record.outcome else {
+        return None;
+    };
+    let (scheme, n) = (record.key.scheme.label(), record.key.n);
+    let variant = match record.key.variant.as_str() {
+        "" => String::new(),
+        other => format!(", {other}"),
+    };
+    Some(escaped(&format!("{scheme}{variant}, n = {n}: {message}")))
+}
+
 /// Every run and its norms.
 fn norms_table(case: &dyn Case, runs: &[&RunRecord]) -> Table {
-    let mut columns = vec![Column::text("scheme"), Column::text("variant"), Column::number("n", "")];
-    columns.extend(case.tabulated().iter().map(|(_, title)| Column::number(*title, "")));
+    let mut columns = vec![
+        Column::text("scheme"),
+        Column::text("variant"),
+        Column::number("n", ""),
+    ];
+    columns.extend(
+        case.tabulated()
+            .iter()
+            .map(|(_, title)| Column::number(*title, "")),
+    );
     let mut runs = runs.to_vec();
     runs.sort_by_key(|r| (r.key.variant.clone(), r.key.scheme, r.key.n));
     let rows = runs.into_iter().map(|r| {
         let mut row = vec![
             r.key.scheme.label().into(),
             r.key.variant.clone().into(),
-            Cell::number(r.key.n as f64, 6),
+            Cell::count(r.key.n as u64),
         ];
         let failed = matches!(r.outcome, Outcome::Failed { .. });
         for (k, (name, _)) in case.tabulated().iter().enumerate() {
@@ -71,7 +109,11 @@ fn norms_table(case: &dyn Case, runs: &[&RunRecord]) -> Table {
 /// Completed runs by scheme and variant, the coarsest first.
 fn groups<'a>(runs: &[&'a RunRecord]) -> Vec<(Scheme, &'a str, Vec<&'a RunRecord>)> {
     let mut groups: Vec<(Scheme, &str, Vec<&RunRecord>)> = Vec::new();
-    for run in runs.iter().copied().filter(|r| r.outcome == Outcome::Completed) {
+    for run in runs
+        .iter()
+        .copied()
+        .filter(|r| r.outcome == Outcome::Completed)
+    {
         let key = (run.key.scheme, run.key.variant.as_str());
         match groups.iter_mut().find(|(s, v, _)| (*s, *v) == key) {
             Some((_, _, members)) => members.push(run),
@@ -87,7 +129,10 @@ fn groups<'a>(runs: &[&'a RunRecord]) -> Vec<(Scheme, &'a str, Vec<&'a RunRecord
 /// A quantity at all sizes of a group.
 fn levels(members: &[&RunRecord], name: &str) -> Vec<Level> {
     let level = |r: &&RunRecord| {
-        Some(Level { spacing: 1.0 / r.key.n as f64, value: *r.norms.get(name)? })
+        Some(Level {
+            spacing: 1.0 / r.key.n as f64,
+            value: *r.norms.get(name)?,
+        })
     };
     members.iter().filter_map(level).collect()
 }
@@ -146,7 +191,9 @@ fn orders_table(case: &dyn Case, runs: &[&RunRecord]) -> Option<Table> {
     let mut rows = Vec::new();
     for (scheme, variant, members) in groups(runs) {
         for (name, title) in case.tabulated() {
-            let Some(fit) = order(&members, name) else { continue };
+            let Some(fit) = order(&members, name) else {
+                continue;
+            };
             let levels = levels(&members, name);
             let pairwise = convergence::pairwise_orders(&levels).unwrap_or_default();
             let pairwise: Vec<String> = pairwise.into_iter().map(|p| sig(p, 3)).collect();

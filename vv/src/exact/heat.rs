@@ -76,7 +76,7 @@ mod tests {
     use approx::assert_relative_eq;
     use proptest::prelude::*;
 
-    /// heat_chain_decay.csv (n = 32, R = 0.1 c_s/dx): mode, continuum rate, chain rate.
+    /// `heat_chain_decay.csv` (n = 32, R = 0.1 `c_s/dx)`: mode, continuum rate, chain rate.
     const TABLE: [(u32, f64, f64); 5] = [
         (1, 0.000_963_828_55, 0.000_963_054_67),
         (2, 0.003_855_314_2, 0.003_842_943_9),

@@ -111,7 +111,7 @@ mod tests {
     use approx::assert_relative_eq;
     use proptest::prelude::*;
 
-    /// noh_exact.csv: k, gamma, shock speed, rho behind, rho ahead, p, e.
+    /// `noh_exact.csv`: k, gamma, shock speed, rho behind, rho ahead, p, e.
     const TABLE: [[f64; 7]; 6] = [
         [
             1.0,

@@ -208,7 +208,7 @@ mod tests {
     use approx::{assert_abs_diff_eq, assert_relative_eq};
     use proptest::prelude::*;
 
-    /// kolsky_bar_midpoint.csv: start of each interval, midpoint velocity for a fixed and for a
+    /// `kolsky_bar_midpoint.csv`: start of each interval, midpoint velocity for a fixed and for a
     /// free end, with c = 202721.21 in/s, L = 100 in, P/(rho c) = 337.868689 in/s.
     const TABLE: [(f64, f64, f64); 5] = [
         (0.0, 0.0, 0.0),

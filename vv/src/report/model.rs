@@ -210,6 +210,15 @@ impl Cell {
         }
     }
 
+    /// A whole number, shown in full.
+    pub fn count(value: u64) -> Self {
+        Self {
+            text: value.to_string(),
+            value: Some(value as f64),
+            status: None,
+        }
+    }
+
     /// A verdict by itself.
     pub fn verdict(status: Status) -> Self {
         Self {

@@ -27,7 +27,7 @@ fn sod() -> Riemann {
     solve(gas(1.0, 0.0, 1.0, 1.4), gas(0.125, 0.0, 0.1, 1.4))
 }
 
-/// A row of riemann_exact.csv.
+/// A row of `riemann_exact.csv`.
 struct Row {
     left: [f64; 3],
     right: [f64; 3],
@@ -168,7 +168,7 @@ fn reproduces_the_reference_table() {
     }
 }
 
-/// Lines of sod_profile_t0.2.csv (x, rho, u, p, e) on both sides of every wave; the membrane is at
+/// Lines of `sod_profile_t0.2.csv` (x, rho, u, p, e) on both sides of every wave; the membrane is at
 /// x = 0.5. All 201 lines agree to 1e-9.
 const SOD_PROFILE: [[f64; 5]; 13] = [
     [0.25, 1.0, 0.0, 1.0, 2.5],
