@@ -39,15 +39,9 @@ fn main() {
     let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
     let version = Command::new(rustc).arg("--version").output();
     let version = version.map(|o| String::from_utf8_lossy(&o.stdout).trim().to_owned());
-    println!(
-        "cargo::rustc-env=WHIPPLE_RUSTC={}",
-        version.unwrap_or_else(|_| "unknown".into())
-    );
+    println!("cargo::rustc-env=WHIPPLE_RUSTC={}", version.unwrap_or_else(|_| "unknown".into()));
     for name in ["PROFILE", "TARGET"] {
-        println!(
-            "cargo::rustc-env=WHIPPLE_{name}={}",
-            std::env::var(name).unwrap_or_default()
-        );
+        println!("cargo::rustc-env=WHIPPLE_{name}={}", std::env::var(name).unwrap_or_default());
     }
 }
 

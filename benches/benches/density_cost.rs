@@ -11,10 +11,9 @@ const ROUNDS: usize = 10;
 
 /// Criterion's view: time of a step, per particle.
 fn step(c: &mut Criterion) {
-    for (name, integrator) in [
-        ("single pass", Integrator::SinglePass),
-        ("compatible", Integrator::Compatible),
-    ] {
+    for (name, integrator) in
+        [("single pass", Integrator::SinglePass), ("compatible", Integrator::Compatible)]
+    {
         let mut group = c.benchmark_group(format!("step, {name}"));
         group.throughput(Throughput::Elements(PARTICLES as u64));
         group.sample_size(20);

@@ -12,19 +12,11 @@ fn scene(preset: Preset, n: usize) -> Scene {
         units: Units::None,
         stop_time: 0.3,
         method: preset.method(),
-        boundaries: Boundaries {
-            left: Boundary::Mirror(0.0),
-            right: Boundary::Free,
-        },
+        boundaries: Boundaries { left: Boundary::Mirror(0.0), right: Boundary::Free },
         materials: vec![Material {
             name: "gas".into(),
             density: 1.0,
-            eos: EosData::IdealGas {
-                adiabatic_index: 5.0 / 3.0,
-                c_v: 1.0,
-                u_0: 1.0,
-                theta_0: 1.0,
-            },
+            eos: EosData::IdealGas { adiabatic_index: 5.0 / 3.0, c_v: 1.0, u_0: 1.0, theta_0: 1.0 },
         }],
         bodies: vec![Body {
             material: "gas".into(),
@@ -55,11 +47,7 @@ fn main() {
             let p = s.snapshot();
             let (mut ev, mut et) = (0.0, 0.0);
             for i in 0..n {
-                let (v, t) = if p.x[i] < 0.1 {
-                    (0.0, 1.5)
-                } else {
-                    (-1.0, 1.0)
-                };
+                let (v, t) = if p.x[i] < 0.1 { (0.0, 1.5) } else { (-1.0, 1.0) };
                 ev += (p.v[i] - v).powi(2);
                 et += (p.theta[i] - t).powi(2);
             }

@@ -55,12 +55,7 @@ impl Ledger {
     /// A ledger that starts with these sums.
     #[must_use]
     pub fn new(initial: Totals) -> Self {
-        Self {
-            initial,
-            now: initial,
-            largest_momentum: initial.momentum_scale,
-            ..Self::default()
-        }
+        Self { initial, now: initial, largest_momentum: initial.momentum_scale, ..Self::default() }
     }
 
     /// Enters the sums at the end of a step.
@@ -68,9 +63,7 @@ impl Ledger {
         self.now = now;
         let before = self.initial.kinetic + self.initial.internal;
         let after = now.kinetic + now.internal + self.strain;
-        self.worst_energy = self
-            .worst_energy
-            .max((after - before - self.boundary_work).abs());
+        self.worst_energy = self.worst_energy.max((after - before - self.boundary_work).abs());
         self.largest_work = self.largest_work.max(self.boundary_work.abs());
         let error = now.momentum - self.initial.momentum - self.boundary_impulse;
         self.worst_momentum = self.worst_momentum.max(error.abs());
@@ -81,11 +74,7 @@ impl Ledger {
     /// boundaries where there was none; over the internal energy where there was neither.
     #[must_use]
     pub fn energy_drift(&self) -> f64 {
-        let scales = [
-            self.initial.kinetic,
-            self.largest_work,
-            self.initial.internal,
-        ];
+        let scales = [self.initial.kinetic, self.largest_work, self.initial.internal];
         let scale = scales.into_iter().find(|&s| s > 0.0).unwrap_or(1.0);
         self.worst_energy / scale
     }
@@ -94,11 +83,7 @@ impl Ledger {
     /// to rest for an instant in every period.
     #[must_use]
     pub fn momentum_drift(&self) -> f64 {
-        if self.largest_momentum > 0.0 {
-            self.worst_momentum / self.largest_momentum
-        } else {
-            0.0
-        }
+        if self.largest_momentum > 0.0 { self.worst_momentum / self.largest_momentum } else { 0.0 }
     }
 
     /// Change of the mass over the mass. Zero: particles are neither made nor deleted.

@@ -78,11 +78,7 @@ impl Chain {
         let n = scene.particles();
         let images = if far { IMAGES } else { 2 }.min(n);
         let wall = |b| {
-            if let Boundary::Mirror(x) = b {
-                Some(x)
-            } else {
-                None
-            }
+            if let Boundary::Mirror(x) = b { Some(x) } else { None }
         };
         let walls = [wall(scene.boundaries.left), wall(scene.boundaries.right)];
         let [before, behind] = walls.map(|w| if w.is_some() { images } else { 0 });
@@ -130,13 +126,7 @@ impl Chain {
         let rho_0 = scene.materials[material].density;
         let l = body.compression * body.cell();
         let compression = body.compression;
-        BodyRow {
-            rho_0,
-            l,
-            compression,
-            material: material as u16,
-            medium,
-        }
+        BodyRow { rho_0, l, compression, material: material as u16, medium }
     }
 
     /// Number of particles, images included.
@@ -213,9 +203,7 @@ impl Chain {
     #[must_use]
     pub fn one_body(&self, range: std::ops::Range<usize>) -> bool {
         let bodies = &self.body[range];
-        bodies
-            .iter()
-            .fold(true, |same, &body| same & (body == bodies[0]))
+        bodies.iter().fold(true, |same, &body| same & (body == bodies[0]))
     }
 
     /// Whether two particles belong to one continuous medium.
@@ -229,23 +217,8 @@ impl Chain {
     #[inline(always)]
     #[must_use]
     pub fn side(&self, i: usize, rho: f64, u: f64) -> Side {
-        let BodyRow {
-            rho_0,
-            l,
-            material,
-            medium,
-            ..
-        } = self.rows[usize::from(self.body[i])];
-        Side {
-            index: i,
-            m: self.m[i],
-            l,
-            rho_0,
-            material,
-            medium,
-            rho,
-            u,
-        }
+        let BodyRow { rho_0, l, material, medium, .. } = self.rows[usize::from(self.body[i])];
+        Side { index: i, m: self.m[i], l, rho_0, material, medium, rho, u }
     }
 
     /// A particle and one on its right at the distance `r`.
@@ -258,24 +231,13 @@ impl Chain {
         let joined = left.medium == right.medium;
         let bonded = neighbours && joined;
         let nearest = bonded || (neighbours && zeta < 1.0);
-        Contact {
-            r,
-            length,
-            zeta,
-            nearest,
-            bonded,
-            joined,
-        }
+        Contact { r, length, zeta, nearest, bonded, joined }
     }
 
     /// The pair of particle `a` and a particle `b` on its right, at these positions.
     #[must_use]
     pub fn contact_at(&self, x: &[f64], a: usize, b: usize) -> Contact {
-        self.contact(
-            &self.side(a, 0.0, 0.0),
-            &self.side(b, 0.0, 0.0),
-            x[b] - x[a],
-        )
+        self.contact(&self.side(a, 0.0, 0.0), &self.side(b, 0.0, 0.0), x[b] - x[a])
     }
 
     /// Contact length of particle `i`.
@@ -289,10 +251,7 @@ impl Chain {
     pub fn touching<'a>(&'a self, x: &'a [f64], i: usize) -> impl Iterator<Item = f64> + 'a {
         let left = (i > 0).then(|| self.contact_at(x, i - 1, i));
         let right = (i + 1 < self.len()).then(|| self.contact_at(x, i, i + 1));
-        left.into_iter()
-            .chain(right)
-            .filter(|c| c.nearest)
-            .map(|c| c.zeta)
+        left.into_iter().chain(right).filter(|c| c.nearest).map(|c| c.zeta)
     }
 
     /// Images and what they are images of, as pairs of indices.

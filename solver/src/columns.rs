@@ -115,10 +115,7 @@ pub fn chunks<T: Send>(column: &mut [T], work: impl Fn(usize, &mut [T]) + Sync) 
     if column.len() <= CHUNK {
         return work(0, column);
     }
-    column
-        .par_chunks_mut(CHUNK)
-        .enumerate()
-        .for_each(|(c, own)| work(c * CHUNK, own));
+    column.par_chunks_mut(CHUNK).enumerate().for_each(|(c, own)| work(c * CHUNK, own));
 }
 
 /// What the pairs of a chunk add up to: its own particles, and those of the next chunk that are in
@@ -177,13 +174,7 @@ impl<T: Copy + Default + AddAssign + Send, S: Default + Send> Scratch<T, S> {
     pub fn new(n: usize) -> Self {
         let chunks = n.div_ceil(CHUNK);
         Self {
-            spill: vec![
-                Spill {
-                    values: [T::default(); REACH],
-                    used: 0
-                };
-                chunks
-            ],
+            spill: vec![Spill { values: [T::default(); REACH], used: 0 }; chunks],
             sums: (0..chunks).map(|_| S::default()).collect(),
         }
     }
@@ -199,11 +190,7 @@ impl<T: Copy + Default + AddAssign + Send, S: Default + Send> Scratch<T, S> {
             own.fill(T::default());
             spill.values[..spill.used].fill(T::default());
             spill.used = 0;
-            *sum = work(&mut Bins {
-                start: c * CHUNK,
-                own,
-                spill,
-            });
+            *sum = work(&mut Bins { start: c * CHUNK, own, spill });
         };
         if column.len() <= CHUNK {
             one(0, column, &mut self.spill[0], &mut self.sums[0]);

@@ -16,11 +16,7 @@ pub struct SceneError {
 
 impl SceneError {
     pub(crate) fn new(key: impl Into<String>, value: impl std::fmt::Display, wanted: &str) -> Self {
-        Self {
-            key: key.into(),
-            value: value.to_string(),
-            wanted: wanted.to_owned(),
-        }
+        Self { key: key.into(), value: value.to_string(), wanted: wanted.to_owned() }
     }
 }
 

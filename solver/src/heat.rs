@@ -60,16 +60,9 @@ impl Heat for ArtificialConduction {
 
     fn new(method: &Method) -> Self {
         let of = |form| {
-            if method.conduction == form {
-                method.heat_coeff
-            } else {
-                0.0
-            }
+            if method.conduction == form { method.heat_coeff } else { 0.0 }
         };
-        Self {
-            linear: of(Conduction::Linear),
-            shock: of(Conduction::Shock),
-        }
+        Self { linear: of(Conduction::Linear), shock: of(Conduction::Shock) }
     }
 
     fn support(&self) -> f64 {
@@ -88,17 +81,9 @@ impl Heat for ArtificialConduction {
     ) -> f64 {
         let mean = |pair: [f64; 2]| 0.5 * (pair[0] + pair[1]);
         let per_side = |k: usize| sides[k].0.rho_0 * closing.sound[k] * sides[k].1.c_v();
-        let linear = if contact.zeta < 1.0 {
-            mean([per_side(0), per_side(1)])
-        } else {
-            0.0
-        };
+        let linear = if contact.zeta < 1.0 { mean([per_side(0), per_side(1)]) } else { 0.0 };
         let c_v = mean(sides.map(|s| s.1.c_v()));
-        let jump = if contact.nearest {
-            closing.jump.max(0.0)
-        } else {
-            0.0
-        };
+        let jump = if contact.nearest { closing.jump.max(0.0) } else { 0.0 };
         self.linear * linear + self.shock * mean(closing.rho) * c_v * jump
     }
 }

@@ -41,10 +41,6 @@ impl Snapshot {
     /// Lengths of the particles, mass over density (the cross-section is 1).
     #[must_use]
     pub fn lengths(&self) -> Vec<f64> {
-        self.m
-            .iter()
-            .zip(&self.rho)
-            .map(|(m, rho)| m / rho)
-            .collect()
+        self.m.iter().zip(&self.rho).map(|(m, rho)| m / rho).collect()
     }
 }

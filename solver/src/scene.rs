@@ -169,11 +169,9 @@ impl Profile {
         match self {
             Self::Uniform(value) => value,
             Self::Linear { at_origin, slope } => at_origin + slope * x,
-            Self::Cosine {
-                mean,
-                amplitude,
-                mode,
-            } => mean + amplitude * (std::f64::consts::PI * mode * (x - from) / (to - from)).cos(),
+            Self::Cosine { mean, amplitude, mode } => {
+                mean + amplitude * (std::f64::consts::PI * mode * (x - from) / (to - from)).cos()
+            }
         }
     }
 
@@ -184,11 +182,7 @@ impl Profile {
                 finite(&format!("{key}.linear.at_origin"), at_origin)?;
                 finite(&format!("{key}.linear.slope"), slope)
             }
-            Self::Cosine {
-                mean,
-                amplitude,
-                mode,
-            } => {
+            Self::Cosine { mean, amplitude, mode } => {
                 finite(&format!("{key}.cosine.mean"), mean)?;
                 finite(&format!("{key}.cosine.amplitude"), amplitude)?;
                 finite(&format!("{key}.cosine.mode"), mode)
@@ -206,11 +200,7 @@ impl Body {
             Layout::Centres => (self.from + (k as f64 + 0.5) * size, 1.0),
             Layout::Nodes => {
                 let end = k == 0 || k + 1 == self.particles;
-                let x = if k + 1 == self.particles {
-                    self.to
-                } else {
-                    self.from + k as f64 * size
-                };
+                let x = if k + 1 == self.particles { self.to } else { self.from + k as f64 * size };
                 (x, if end { 0.5 } else { 1.0 })
             }
         }
@@ -239,12 +229,7 @@ impl EosData {
 
     fn check(&self, key: &str) -> Result<(), SceneError> {
         match *self {
-            Self::IdealGas {
-                adiabatic_index,
-                c_v,
-                u_0,
-                theta_0,
-            } => {
+            Self::IdealGas { adiabatic_index, c_v, u_0, theta_0 } => {
                 let key = format!("{key}.ideal_gas");
                 if !(adiabatic_index.is_finite() && adiabatic_index > 1.0) {
                     let key = format!("{key}.adiabatic_index");
@@ -268,9 +253,7 @@ impl Scene {
     /// Number of particles in all bodies.
     #[must_use]
     pub fn particles(&self) -> usize {
-        self.bodies
-            .iter()
-            .fold(0, |n, b| n.saturating_add(b.particles))
+        self.bodies.iter().fold(0, |n, b| n.saturating_add(b.particles))
     }
 
     /// Index of the material called `name`.
@@ -299,20 +282,12 @@ impl Scene {
             material.eos.check(&format!("{key}.eos"))?;
             if self.material_index(&material.name) != Some(k) {
                 let wanted = "names of materials must be unique";
-                return Err(SceneError::new(
-                    format!("{key}.name"),
-                    &material.name,
-                    wanted,
-                ));
+                return Err(SceneError::new(format!("{key}.name"), &material.name, wanted));
             }
             let solid = |m: &Material| matches!(m.eos, EosData::Linear { .. });
             if solid(material) != solid(&self.materials[0]) {
                 let wanted = "gases and solids cannot share a one-dimensional scene yet";
-                return Err(SceneError::new(
-                    format!("{key}.eos"),
-                    &material.name,
-                    wanted,
-                ));
+                return Err(SceneError::new(format!("{key}.eos"), &material.name, wanted));
             }
         }
         Ok(())
@@ -323,11 +298,7 @@ impl Scene {
             return Err(SceneError::new("bodies", "empty", "a scene needs a body"));
         }
         if self.bodies.len() > usize::from(u16::MAX) {
-            return Err(SceneError::new(
-                "bodies",
-                self.bodies.len(),
-                "65535 bodies are the most",
-            ));
+            return Err(SceneError::new("bodies", self.bodies.len(), "65535 bodies are the most"));
         }
         let mut previous: Option<&Body> = None;
         for (k, body) in self.bodies.iter().enumerate() {
@@ -344,11 +315,7 @@ impl Scene {
             finite(&key("to"), body.to)?;
             positive(&key("compression"), body.compression)?;
             if body.to <= body.from {
-                return Err(SceneError::new(
-                    key("to"),
-                    body.to,
-                    "it must be right of `from`",
-                ));
+                return Err(SceneError::new(key("to"), body.to, "it must be right of `from`"));
             }
             body.velocity.check(&key("velocity"))?;
             body.energy.check(&key("energy"))?;
@@ -420,21 +387,13 @@ impl Method {
         positive("method.limiter", self.limiter)?;
         not_negative("method.heat_coeff", self.heat_coeff)?;
         if !(self.cfl > 0.0 && self.cfl <= 1.0) {
-            return Err(SceneError::new(
-                "method.cfl",
-                self.cfl,
-                "it must be in (0, 1]",
-            ));
+            return Err(SceneError::new("method.cfl", self.cfl, "it must be in (0, 1]"));
         }
         if self.density == Density::Kernel
             && !(self.kernel_support > 1.0 && self.kernel_support <= 4.0)
         {
             let wanted = "it must be in (1, 4] particle spacings";
-            return Err(SceneError::new(
-                "method.kernel_support",
-                self.kernel_support,
-                wanted,
-            ));
+            return Err(SceneError::new("method.kernel_support", self.kernel_support, wanted));
         }
         Ok(())
     }

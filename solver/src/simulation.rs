@@ -12,13 +12,12 @@ use crate::elements::Solid;
 use crate::elements::series;
 use crate::eos::Eos;
 use crate::error::{SceneError, StepError};
-use crate::forces::{
-    Forces, Heating, Laws, Middle, Opening, PairSums, Pass, Sweep, Tally, View, Work,
-};
+use crate::forces::{Forces, Heating, Laws, Middle, Opening, PairSums, Pass, Tally, View, Work};
 use crate::heat::Heat;
 use crate::method::Integrator;
 use crate::physics::Physics;
 use crate::scene::Scene;
+use crate::sweep::Sweep;
 use crate::timestep::{Decided, Limiter, Vote};
 use crate::viscosity::ViscousLaw;
 
@@ -90,11 +89,7 @@ impl<P: Physics<1>> Simulation<P> {
         let method = &scene.method;
         let heat = P::Heat::new(method);
         let viscosity = ViscousLaw::new(method);
-        let conducting = if P::Heat::CONDUCTS {
-            heat.support()
-        } else {
-            0.0
-        };
+        let conducting = if P::Heat::CONDUCTS { heat.support() } else { 0.0 };
         let support = viscosity.support().max(conducting);
         let eos = |m: &crate::scene::Material| {
             P::Eos::new(m.density, &m.eos, method.sound_speed).ok_or_else(|| {
@@ -102,29 +97,13 @@ impl<P: Physics<1>> Simulation<P> {
                 SceneError::new("materials", &m.name, wanted)
             })
         };
-        let eos = scene
-            .materials
-            .iter()
-            .map(eos)
-            .collect::<Result<Vec<_>, _>>()?;
+        let eos = scene.materials.iter().map(eos).collect::<Result<Vec<_>, _>>()?;
         let heating = Heating::new(method.heating);
-        let mut laws: Laws<P> = Laws {
-            density,
-            eos,
-            viscosity,
-            heat,
-            heating,
-            support,
-        };
+        let mut laws: Laws<P> = Laws { density, eos, viscosity, heat, heating, support };
         let (chain, x) = Chain::new(scene, laws.reach_far());
         let n = chain.len();
 
-        let mut state = State {
-            v: vec![0.0; n],
-            u: vec![0.0; n],
-            rho: ColumnOf::<P>::zeros(n),
-            x,
-        };
+        let mut state = State { v: vec![0.0; n], u: vec![0.0; n], rho: ColumnOf::<P>::zeros(n), x };
         for i in chain.real() {
             let body = &scene.bodies[chain.body(i)];
             state.v[i] = body.velocity.at(state.x[i], (body.from, body.to));
@@ -199,35 +178,17 @@ impl<P: Physics<1>> Simulation<P> {
 
     /// Sums the contacts of every particle, Eqs. (36), (58)-(62), (67), (78) and (51).
     fn sweep<K: Pass>(&mut self, at: At) -> Result<PairSums, StepError> {
-        let state = if matches!(at, At::Start) {
-            &mut self.state
-        } else {
-            &mut self.middle
-        };
+        let state = if matches!(at, At::Start) { &mut self.state } else { &mut self.middle };
         if !matches!(at, At::MiddleOverMean) {
-            self.laws
-                .density
-                .resum(&self.chain, &state.x, &mut state.rho, &mut self.counters);
+            self.laws.density.resum(&self.chain, &state.x, &mut state.rho, &mut self.counters);
         }
-        let drift = if matches!(at, At::MiddleOverMean) {
-            &self.mean
-        } else {
-            &state.v
-        };
+        let drift = if matches!(at, At::MiddleOverMean) { &self.mean } else { &state.v };
         let sweep = Sweep {
             laws: &self.laws,
             chain: &self.chain,
-            state: View {
-                x: &state.x,
-                v: &state.v,
-                drift,
-                u: &state.u,
-                rho: &state.rho,
-            },
+            state: View { x: &state.x, v: &state.v, drift, u: &state.u, rho: &state.rho },
         };
-        let chunks = self
-            .scratch
-            .over_pairs(&mut self.tally, |bins| sweep.chunk::<K>(bins));
+        let chunks = self.scratch.over_pairs(&mut self.tally, |bins| sweep.chunk::<K>(bins));
 
         let mut sums = PairSums::default();
         for chunk in chunks {
@@ -262,10 +223,7 @@ impl<P: Physics<1>> Simulation<P> {
             damped.consider(self.chain.mass(i) / self.tally[i].damping, i);
         }
         // The sweep votes with the square of the time that sound takes, to save it the root.
-        let sound = Vote {
-            dt: votes[0].dt.sqrt(),
-            ..votes[0]
-        };
+        let sound = Vote { dt: votes[0].dt.sqrt(), ..votes[0] };
         let voted = Vote::together(sound.min(votes[1]), damped).scaled(self.cfl);
         if voted.dt.is_nan() || voted.dt < self.smallest_step {
             return Err(StepError::TimeStep {
@@ -277,11 +235,7 @@ impl<P: Physics<1>> Simulation<P> {
             });
         }
         let rest = until - self.time;
-        let landing = |dt| Vote {
-            dt,
-            limiter: Limiter::Landing,
-            particle: voted.particle,
-        };
+        let landing = |dt| Vote { dt, limiter: Limiter::Landing, particle: voted.particle };
         self.vote = if voted.dt >= rest {
             landing(rest)
         } else if voted.dt > 0.5 * rest {
@@ -359,11 +313,7 @@ impl<P: Physics<1>> Simulation<P> {
         end_force: f64,
         strain_power: f64,
     ) -> Result<(), StepError> {
-        let now = if self.vote.dt >= until - self.time {
-            until
-        } else {
-            self.time + dt
-        };
+        let now = if self.vote.dt >= until - self.time { until } else { self.time + dt };
         std::mem::swap(&mut self.state, &mut self.middle);
         let totals = self.audit();
         if let Some(error) = self.complaint(now) {
@@ -385,11 +335,7 @@ impl<P: Physics<1>> Simulation<P> {
         let (laws, chain, state) = (&self.laws, &self.chain, &self.state);
         let total_mass = self.ledger.initial.mass;
         let energy = self.ledger.initial.kinetic + self.ledger.initial.internal;
-        let cold = if total_mass > 0.0 {
-            COLD * energy / total_mass
-        } else {
-            f64::INFINITY
-        };
+        let cold = if total_mass > 0.0 { COLD * energy / total_mass } else { f64::INFINITY };
         let real = chain.real();
         let one = |c: usize, out: &mut ChunkTotals| {
             let (start, end) = (real.start.max(c * CHUNK), real.end.min((c + 1) * CHUNK));
@@ -413,10 +359,7 @@ impl<P: Physics<1>> Simulation<P> {
         if self.totals.len() == 1 {
             one(0, &mut self.totals[0]);
         } else {
-            self.totals
-                .par_iter_mut()
-                .enumerate()
-                .for_each(|(c, out)| one(c, out));
+            self.totals.par_iter_mut().enumerate().for_each(|(c, out)| one(c, out));
         }
         let mut totals = Totals::default();
         for chunk in &self.totals {
@@ -437,34 +380,17 @@ impl<P: Physics<1>> Simulation<P> {
             let particle = self.label(i);
             let not_finite = [("position", state.x[i]), ("velocity", state.v[i])]
                 .into_iter()
-                .chain([
-                    ("internal energy", state.u[i]),
-                    ("density", state.rho.get(i)),
-                ])
+                .chain([("internal energy", state.u[i]), ("density", state.rho.get(i))])
                 .find(|(_, value)| !value.is_finite());
             if let Some((quantity, value)) = not_finite {
-                return Some(StepError::NotFinite {
-                    quantity,
-                    particle,
-                    time,
-                    value,
-                });
+                return Some(StepError::NotFinite { quantity, particle, time, value });
             }
             if state.rho.get(i) < 0.0 {
-                return Some(StepError::Density {
-                    particle,
-                    time,
-                    value: state.rho.get(i),
-                });
+                return Some(StepError::Density { particle, time, value: state.rho.get(i) });
             }
             let floor = self.laws.eos[self.chain.material(i)].floor();
             if state.u[i] < floor - cold {
-                return Some(StepError::Energy {
-                    particle,
-                    time,
-                    value: state.u[i],
-                    floor,
-                });
+                return Some(StepError::Energy { particle, time, value: state.u[i], floor });
             }
             let next = (i + 1 < self.chain.real().end).then(|| state.x[i + 1] - state.x[i])?;
             (next <= 0.0).then_some(StepError::Crossed {
@@ -479,11 +405,7 @@ impl<P: Physics<1>> Simulation<P> {
     /// Index of a particle as the user counts: from 0, images as what they are images of.
     fn label(&self, i: usize) -> usize {
         let real = self.chain.real();
-        let of = self
-            .chain
-            .images()
-            .find(|&(image, _)| image == i)
-            .map_or(i, |(_, of)| of);
+        let of = self.chain.images().find(|&(image, _)| image == i).map_or(i, |(_, of)| of);
         of - real.start
     }
 }

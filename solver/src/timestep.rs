@@ -47,11 +47,7 @@ impl Vote {
     /// An abstention.
     #[must_use]
     pub fn none(limiter: Limiter) -> Self {
-        Self {
-            dt: f64::INFINITY,
-            limiter,
-            particle: 0,
-        }
+        Self { dt: f64::INFINITY, limiter, particle: 0 }
     }
 
     /// Lowers the vote to `dt`.
@@ -73,19 +69,13 @@ impl Vote {
     #[must_use]
     pub fn together(self, other: Self) -> Self {
         let dt = 1.0 / (1.0 / self.dt + 1.0 / other.dt);
-        Self {
-            dt,
-            ..self.min(other)
-        }
+        Self { dt, ..self.min(other) }
     }
 
     /// The vote times a safety factor.
     #[must_use]
     pub fn scaled(self, factor: f64) -> Self {
-        Self {
-            dt: factor * self.dt,
-            ..self
-        }
+        Self { dt: factor * self.dt, ..self }
     }
 }
 

@@ -40,10 +40,14 @@ impl ViscousLaw {
     /// The law of a run in which only nearest neighbours act: the limited form.
     #[inline(always)]
     pub(crate) fn near(self) -> Self {
-        Self {
-            form: Viscosity::Limited,
-            ..self
-        }
+        Self { form: Viscosity::Limited, ..self }
+    }
+
+    /// The law of a run with pairs beyond the nearest: mostly the paper's form.
+    #[inline(always)]
+    pub(crate) fn far(self) -> Option<Self> {
+        let pairwise = self.form == Viscosity::Pairwise;
+        pairwise.then_some(Self { form: Viscosity::Pairwise, ..self })
     }
 
     /// Largest zeta at which pairs beyond the nearest feel it.
@@ -76,16 +80,8 @@ impl ViscousLaw {
             Viscosity::Pairwise => self.pairwise(contact, closing, sides),
             Viscosity::Limited if contact.nearest => {
                 let compression = self.compression(closing, sides);
-                let recession = if contact.bonded {
-                    self.recession(closing)
-                } else {
-                    0.0
-                };
-                if closing.jump > 0.0 {
-                    compression
-                } else {
-                    recession
-                }
+                let recession = if contact.bonded { self.recession(closing) } else { 0.0 };
+                if closing.jump > 0.0 { compression } else { recession }
             }
             Viscosity::Limited => 0.0,
         }
@@ -102,9 +98,9 @@ impl ViscousLaw {
     ) -> f64 {
         match self.form {
             Viscosity::Pairwise => self.pairwise(contact, closing, sides),
-            Viscosity::Limited if contact.nearest => self
-                .compression(closing, sides)
-                .max(self.recession(closing)),
+            Viscosity::Limited if contact.nearest => {
+                self.compression(closing, sides).max(self.recession(closing))
+            }
             Viscosity::Limited => 0.0,
         }
     }

@@ -184,10 +184,7 @@ pub struct Verdict {
 /// Judges claims by records.
 #[must_use]
 pub fn judge(claims: Vec<Claim>, records: &Records) -> Vec<Verdict> {
-    claims
-        .into_iter()
-        .map(|claim| verdict(claim, records))
-        .collect()
+    claims.into_iter().map(|claim| verdict(claim, records)).collect()
 }
 
 fn verdict(claim: Claim, records: &Records) -> Verdict {
@@ -210,11 +207,7 @@ fn verdict(claim: Claim, records: &Records) -> Verdict {
         return out;
     }
     if let Some(kind) = failed {
-        return Verdict {
-            status: Status::Fail,
-            note: kind,
-            ..out
-        };
+        return Verdict { status: Status::Fail, note: kind, ..out };
     }
     (out.value, out.fit) = out.claim.quantity.evaluate(&found);
     out.status = match out.value {
@@ -264,12 +257,7 @@ impl Quantity {
 pub fn order(runs: &[&RunRecord], name: &str) -> Option<OrderFit> {
     let levels: Option<Vec<Level>> = runs
         .iter()
-        .map(|r| {
-            Some(Level {
-                spacing: 1.0 / r.key.n as f64,
-                value: *r.norms.get(name)?,
-            })
-        })
+        .map(|r| Some(Level { spacing: 1.0 / r.key.n as f64, value: *r.norms.get(name)? }))
         .collect();
     convergence::fitted_order(&levels?).ok()
 }

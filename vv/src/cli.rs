@@ -179,10 +179,7 @@ struct Failure {
 
 impl Failure {
     fn usage(message: impl std::fmt::Display) -> Self {
-        Self {
-            code: WRONG_USE,
-            message: message.to_string(),
-        }
+        Self { code: WRONG_USE, message: message.to_string() }
     }
 }
 
@@ -194,10 +191,7 @@ impl From<crate::run::RunError> for Failure {
             E::Step(_) | E::Norm(_) | E::Godunov(_) => NUMERICAL_FAILURE,
             E::Scene(_) | E::Reference(_) | E::NotThere { .. } => WRONG_USE,
         };
-        Self {
-            code,
-            message: error.to_string(),
-        }
+        Self { code, message: error.to_string() }
     }
 }
 
@@ -206,10 +200,7 @@ impl From<crate::suite::SuiteError> for Failure {
         match error {
             crate::suite::SuiteError::Run { key, source } => {
                 let inner = Self::from(source);
-                Self {
-                    code: inner.code,
-                    message: format!("{key}: {}", inner.message),
-                }
+                Self { code: inner.code, message: format!("{key}: {}", inner.message) }
             }
             other => Self::usage(other),
         }
@@ -262,9 +253,9 @@ pub fn main() -> u8 {
 fn print(text: &str) -> Result<(), Failure> {
     let mut out = std::io::stdout().lock();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
-        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(Failure::usage(
-            format!("cannot write to standard output: {error}"),
-        )),
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
+            Err(Failure::usage(format!("cannot write to standard output: {error}")))
+        }
         _ => Ok(()),
     }
 }

@@ -30,10 +30,7 @@ impl Level {
     /// were refined by integers, so that particle number and cell number go together.
     #[must_use]
     pub fn from_count(particles: u32, dimension: u8, value: f64) -> Self {
-        Self {
-            spacing: f64::from(particles).powf(-1.0 / f64::from(dimension)),
-            value,
-        }
+        Self { spacing: f64::from(particles).powf(-1.0 / f64::from(dimension)), value }
     }
 }
 
@@ -82,14 +79,8 @@ pub fn pairwise_orders(errors: &[Level]) -> Result<Vec<f64>, ConvergenceError> {
     let logs = log_log(errors, 2)?;
     let order = |(pair, levels): (&[(f64, f64)], &[Level])| {
         let run = pair[0].0 - pair[1].0;
-        let equal = ConvergenceError::EqualSpacing {
-            spacing: levels[0].spacing,
-        };
-        if run == 0.0 {
-            Err(equal)
-        } else {
-            Ok((pair[0].1 - pair[1].1) / run)
-        }
+        let equal = ConvergenceError::EqualSpacing { spacing: levels[0].spacing };
+        if run == 0.0 { Err(equal) } else { Ok((pair[0].1 - pair[1].1) / run) }
     };
     logs.windows(2).zip(errors.windows(2)).map(order).collect()
 }
@@ -130,9 +121,7 @@ pub fn fitted_order(errors: &[Level]) -> Result<OrderFit, ConvergenceError> {
     let (x_mean, y_mean) = (sum(&|p| p.0) / count, sum(&|p| p.1) / count);
     let spread = sum(&|p| (p.0 - x_mean).powi(2));
     if logs.iter().all(|p| p.0 == logs[0].0) || spread == 0.0 {
-        return Err(ConvergenceError::EqualSpacing {
-            spacing: errors[0].spacing,
-        });
+        return Err(ConvergenceError::EqualSpacing { spacing: errors[0].spacing });
     }
     let order = sum(&|p| (p.0 - x_mean) * (p.1 - y_mean)) / spread;
     let scatter = sum(&|p| (p.1 - y_mean - order * (p.0 - x_mean)).powi(2));
@@ -158,10 +147,7 @@ pub fn student_t95(freedom: usize) -> f64 {
     const EXPANSION: [f64; 5] = [1.959_963_985, 2.372_272, 2.822_498, 2.555_850, 1.589_536];
     match TABLE.get(freedom.saturating_sub(1)) {
         Some(&quantile) => quantile,
-        None => EXPANSION
-            .iter()
-            .rev()
-            .fold(0.0, |sum, term| sum / freedom as f64 + term),
+        None => EXPANSION.iter().rev().fold(0.0, |sum, term| sum / freedom as f64 + term),
     }
 }
 
@@ -275,8 +261,7 @@ impl GridStudy {
     /// the range. Read as a 95 % band, the standard uncertainty `u_num` is half of it.
     #[must_use]
     pub fn band(&self) -> f64 {
-        self.quoted
-            .map_or(self.range.1 - self.range.0, |estimate| estimate.band)
+        self.quoted.map_or(self.range.1 - self.range.0, |estimate| estimate.band)
     }
 
     /// Whether the finest three levels look asymptotic: monotone with an order near the formal one.
@@ -312,11 +297,7 @@ pub fn grid_study(levels: &[Level], formal_order: f64) -> Result<GridStudy, Conv
         Behaviour::Unknown => estimate(formal_order, SAFETY_OTHERWISE),
         Behaviour::Monotone | Behaviour::Diverging => {
             let near = order_check == OrderCheck::NearFormal;
-            let safety = if near {
-                SAFETY_THREE_LEVELS
-            } else {
-                SAFETY_OTHERWISE
-            };
+            let safety = if near { SAFETY_THREE_LEVELS } else { SAFETY_OTHERWISE };
             estimate(limited(monotone_order.unwrap_or(LOWEST_ORDER)), safety)
         }
     };
@@ -341,9 +322,7 @@ fn finest(levels: &[Level]) -> Result<Vec<Level>, ConvergenceError> {
     sorted.truncate(3);
     for pair in sorted.windows(2) {
         if log_ratio(pair) <= 0.0 {
-            return Err(ConvergenceError::EqualSpacing {
-                spacing: pair[0].spacing,
-            });
+            return Err(ConvergenceError::EqualSpacing { spacing: pair[0].spacing });
         }
         if !(pair[1].value - pair[0].value).is_finite() {
             let Level { spacing, value } = pair[if pair[0].value.is_finite() { 1 } else { 0 }];
@@ -368,14 +347,7 @@ fn classify(levels: &[Level]) -> (Behaviour, Option<f64>) {
         let order = solve_order(growth, log_ratio(levels), log_ratio(&levels[1..]));
         // A smaller order is rounding about zero.
         let shrinks = order > f64::EPSILON.sqrt();
-        (
-            if shrinks {
-                Behaviour::Monotone
-            } else {
-                Behaviour::Diverging
-            },
-            Some(order),
-        )
+        (if shrinks { Behaviour::Monotone } else { Behaviour::Diverging }, Some(order))
     } else if eps21.abs() < eps32.abs() {
         (Behaviour::Oscillatory, None)
     } else {
@@ -426,10 +398,7 @@ fn log_ratio(levels: &[Level]) -> f64 {
 fn log_log(errors: &[Level], wanted: usize) -> Result<Vec<(f64, f64)>, ConvergenceError> {
     check_levels(errors, wanted)?;
     let log = |level: &Level| {
-        positive(
-            || format!("the error at spacing {}", level.spacing),
-            level.value,
-        )?;
+        positive(|| format!("the error at spacing {}", level.spacing), level.value)?;
         Ok((level.spacing.ln(), level.value.ln()))
     };
     errors.iter().map(log).collect()
@@ -438,16 +407,10 @@ fn log_log(errors: &[Level], wanted: usize) -> Result<Vec<(f64, f64)>, Convergen
 /// At least `wanted` levels, every spacing above zero.
 fn check_levels(levels: &[Level], wanted: usize) -> Result<(), ConvergenceError> {
     if levels.len() < wanted {
-        return Err(ConvergenceError::TooFewLevels {
-            found: levels.len(),
-            wanted,
-        });
+        return Err(ConvergenceError::TooFewLevels { found: levels.len(), wanted });
     }
     let spacing = |(i, level): (usize, &Level)| {
-        positive(
-            || format!("the spacing of level {i} (counted from 0)"),
-            level.spacing,
-        )
+        positive(|| format!("the spacing of level {i} (counted from 0)"), level.spacing)
     };
     levels.iter().enumerate().try_for_each(spacing)
 }
@@ -455,14 +418,7 @@ fn check_levels(levels: &[Level], wanted: usize) -> Result<(), ConvergenceError>
 /// `value` is a finite number above zero.
 fn positive(what: impl Fn() -> String, value: f64) -> Result<(), ConvergenceError> {
     let good = value.is_finite() && value > 0.0;
-    if good {
-        Ok(())
-    } else {
-        Err(ConvergenceError::NotPositive {
-            what: what(),
-            value,
-        })
-    }
+    if good { Ok(()) } else { Err(ConvergenceError::NotPositive { what: what(), value }) }
 }
 
 #[cfg(test)]
@@ -471,26 +427,18 @@ mod tests {
     use proptest::prelude::{ProptestConfig, prop, prop_assert, prop_assert_eq, proptest};
 
     fn levels(data: &[(f64, f64)]) -> Vec<Level> {
-        data.iter()
-            .map(|&(spacing, value)| Level { spacing, value })
-            .collect()
+        data.iter().map(|&(spacing, value)| Level { spacing, value }).collect()
     }
 
     fn near(value: f64, wanted: f64, tolerance: f64) {
-        assert!(
-            (value - wanted).abs() <= tolerance,
-            "{value}, wanted {wanted} +- {tolerance}"
-        );
+        assert!((value - wanted).abs() <= tolerance, "{value}, wanted {wanted} +- {tolerance}");
     }
 
     /// The worked example of NASA's tutorial on spatial convergence (dossier 5.1).
     #[test]
     fn nasa_worked_example() {
-        let study = grid_study(
-            &levels(&[(2.0, 0.96854), (1.0, 0.97050), (4.0, 0.96178)]),
-            2.0,
-        )
-        .unwrap();
+        let study =
+            grid_study(&levels(&[(2.0, 0.96854), (1.0, 0.97050), (4.0, 0.96178)]), 2.0).unwrap();
         let estimate = study.observed.unwrap();
         near(estimate.order, 1.786_17, 1e-5);
         near(estimate.extrapolated, 0.971_30, 5e-6);
@@ -507,11 +455,8 @@ mod tests {
     #[test]
     fn table5_is_not_asymptotic() {
         let rows = [(35_992, 6.08), (92_498, 6.47), (187_826, 6.59)];
-        let study = grid_study(
-            &rows.map(|(n, length)| Level::from_count(n, 3, length)),
-            1.0,
-        )
-        .unwrap();
+        let study =
+            grid_study(&rows.map(|(n, length)| Level::from_count(n, 3, length)), 1.0).unwrap();
         let observed = study.observed.unwrap();
         near(observed.order, 3.17, 5e-3);
         near(observed.extrapolated, 6.698, 5e-4);
@@ -519,10 +464,7 @@ mod tests {
         assert_eq!(study.order_check, OrderCheck::NotAsymptotic);
         assert!(!study.is_asymptotic());
         let quoted = study.quoted.unwrap();
-        assert_eq!(
-            (quoted.order, quoted.safety_factor),
-            (1.0, SAFETY_OTHERWISE)
-        );
+        assert_eq!((quoted.order, quoted.safety_factor), (1.0, SAFETY_OTHERWISE));
         near(quoted.extrapolated, 7.04, 5e-3);
         near(quoted.gci12.unwrap(), 0.205, 5e-4);
         near(quoted.asymptotic_ratio.unwrap(), 0.5, 0.1);
@@ -531,12 +473,7 @@ mod tests {
     /// Observed orders of the paper's Table 2 (velocity), `paper_table2_observed_order.csv`.
     #[test]
     fn table2_orders() {
-        let rows = [
-            (100, 0.17116),
-            (200, 0.12141),
-            (400, 0.08635),
-            (800, 0.06081),
-        ];
+        let rows = [(100, 0.17116), (200, 0.12141), (400, 0.08635), (800, 0.06081)];
         let errors = rows.map(|(n, error)| Level::from_count(n, 1, error));
         let orders = pairwise_orders(&errors).unwrap();
         for (order, wanted) in orders.iter().zip([0.4955, 0.4916, 0.5059]) {
@@ -619,10 +556,7 @@ mod tests {
     fn bad_input_is_named() {
         let study = |data: &[(f64, f64)], formal| grid_study(&levels(data), formal).unwrap_err();
         let text = |error: ConvergenceError| error.to_string();
-        assert_eq!(
-            text(study(&[(1.0, 1.0)], 1.0)),
-            "1 levels given, at least 2 needed"
-        );
+        assert_eq!(text(study(&[(1.0, 1.0)], 1.0)), "1 levels given, at least 2 needed");
         assert_eq!(
             text(study(&[(1.0, 1.0), (0.0, 2.0)], 1.0)),
             "the spacing of level 1 (counted from 0) is 0, not a finite number above zero"
@@ -645,14 +579,8 @@ mod tests {
             "the error at spacing 1 is 0, not a finite number above zero"
         );
         let same = levels(&[(1.0, 3.0), (1.0, 1.0), (1.0, 2.0)]);
-        assert!(matches!(
-            fitted_order(&same),
-            Err(ConvergenceError::EqualSpacing { .. })
-        ));
-        assert!(matches!(
-            pairwise_orders(&same),
-            Err(ConvergenceError::EqualSpacing { .. })
-        ));
+        assert!(matches!(fitted_order(&same), Err(ConvergenceError::EqualSpacing { .. })));
+        assert!(matches!(pairwise_orders(&same), Err(ConvergenceError::EqualSpacing { .. })));
     }
 
     proptest! {

@@ -81,26 +81,14 @@ pub fn scene(contender: Contender, integrator: Integrator, n: usize) -> Scene {
     method.kernel_support = contender.support;
     method.integrator = integrator;
     method.conduction = Conduction::None;
-    let eos = EosData::IdealGas {
-        adiabatic_index: 1.4,
-        c_v: 1.0,
-        u_0: 0.0,
-        theta_0: 0.0,
-    };
+    let eos = EosData::IdealGas { adiabatic_index: 1.4, c_v: 1.0, u_0: 0.0, theta_0: 0.0 };
     Scene {
         name: "standing wave".into(),
         units: Units::None,
         stop_time: 1e6,
         method,
-        boundaries: Boundaries {
-            left: Boundary::Mirror(0.0),
-            right: Boundary::Mirror(1.0),
-        },
-        materials: vec![Material {
-            name: "gas".into(),
-            density: 1.0,
-            eos,
-        }],
+        boundaries: Boundaries { left: Boundary::Mirror(0.0), right: Boundary::Mirror(1.0) },
+        materials: vec![Material { name: "gas".into(), density: 1.0, eos }],
         bodies: vec![Body {
             material: "gas".into(),
             from: 0.0,
@@ -109,11 +97,7 @@ pub fn scene(contender: Contender, integrator: Integrator, n: usize) -> Scene {
             layout: Layout::Centres,
             compression: 1.0,
             interface: Interface::Joined,
-            velocity: Profile::Cosine {
-                mean: 0.0,
-                amplitude: 0.01,
-                mode: 1.0,
-            },
+            velocity: Profile::Cosine { mean: 0.0, amplitude: 0.01, mode: 1.0 },
             energy: Profile::Uniform(2.5),
         }],
     }
@@ -160,11 +144,7 @@ pub fn compare(
             kernel_evaluations: counters.kernel_evaluations as f64 / per_step,
         }
     };
-    Ok(Comparison {
-        a: cost(0),
-        b: cost(1),
-        ratios,
-    })
+    Ok(Comparison { a: cost(0), b: cost(1), ratios })
 }
 
 /// CPU seconds of some steps.
@@ -180,9 +160,5 @@ fn median(values: &[f64]) -> f64 {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);
     let middle = sorted.len() / 2;
-    if sorted.len() % 2 == 1 {
-        sorted[middle]
-    } else {
-        0.5 * (sorted[middle - 1] + sorted[middle])
-    }
+    if sorted.len() % 2 == 1 { sorted[middle] } else { 0.5 * (sorted[middle - 1] + sorted[middle]) }
 }

@@ -132,9 +132,7 @@ fn replace_with(
         Some(found) if found.is_dir() => return Err(inspect(io::ErrorKind::IsADirectory.into())),
         Some(found) if !found.is_file() => return write_device(path, fill),
         Some(_) if mode.as_ref().is_some_and(fs::Permissions::readonly) => {
-            return Err(failed(path, Operation::Replace)(
-                io::ErrorKind::PermissionDenied.into(),
-            ));
+            return Err(failed(path, Operation::Replace)(io::ErrorKind::PermissionDenied.into()));
         }
         Some(_) => fs::canonicalize(path).map_err(inspect)?,
     };
@@ -147,9 +145,7 @@ fn replace_with(
         .and_then(|()| mode.map_or(Ok(()), |mode| fresh.as_file().set_permissions(mode)))
         .and_then(|()| fresh.as_file().sync_all())
         .map_err(failed(path, Operation::Write))?;
-    fresh
-        .persist(&target)
-        .map_err(|refused| failed(path, Operation::Replace)(refused.error))?;
+    fresh.persist(&target).map_err(|refused| failed(path, Operation::Replace)(refused.error))?;
     sync_folder(folder).map_err(failed(path, Operation::SyncFolder))
 }
 
@@ -158,10 +154,8 @@ fn write_device(
     path: &Path,
     fill: impl FnOnce(&mut File) -> io::Result<()>,
 ) -> Result<(), FileError> {
-    let mut device = OpenOptions::new()
-        .write(true)
-        .open(path)
-        .map_err(failed(path, Operation::CreateFile))?;
+    let mut device =
+        OpenOptions::new().write(true).open(path).map_err(failed(path, Operation::CreateFile))?;
     fill(&mut device).map_err(failed(path, Operation::Write))
 }
 
@@ -172,10 +166,7 @@ fn temporary_in(folder: &Path) -> io::Result<tempfile::NamedTempFile> {
     let ordinary = <fs::Permissions as std::os::unix::fs::PermissionsExt>::from_mode(0o666);
     #[cfg(unix)]
     builder.permissions(ordinary);
-    builder
-        .prefix(".whipple-")
-        .suffix(".tmp")
-        .tempfile_in(folder)
+    builder.prefix(".whipple-").suffix(".tmp").tempfile_in(folder)
 }
 
 /// Brings the entries of `folder` to the disk; file systems that cannot do this are accepted.
@@ -213,9 +204,7 @@ mod tests {
 
     fn names_in(folder: &Path) -> Vec<String> {
         let entries = fs::read_dir(folder).unwrap();
-        entries
-            .map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned())
-            .collect()
+        entries.map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned()).collect()
     }
 
     fn why(result: Result<(), FileError>) -> (Operation, Cause) {
@@ -257,18 +246,9 @@ mod tests {
         let file = folder.path().join("file");
         write_atomic(&file, b"earlier").unwrap();
         let in_the_way = |operation| (operation, Cause::FileInTheWay);
-        assert_eq!(
-            why(write_atomic(&file.join("x"), b"")),
-            in_the_way(Operation::Inspect)
-        );
-        assert_eq!(
-            why(ensure_writable_dir(&file)),
-            in_the_way(Operation::CreateFolder)
-        );
-        assert_eq!(
-            why(ensure_writable_dir(&file.join("x"))),
-            in_the_way(Operation::CreateFolder)
-        );
+        assert_eq!(why(write_atomic(&file.join("x"), b"")), in_the_way(Operation::Inspect));
+        assert_eq!(why(ensure_writable_dir(&file)), in_the_way(Operation::CreateFolder));
+        assert_eq!(why(ensure_writable_dir(&file.join("x"))), in_the_way(Operation::CreateFolder));
         assert_eq!(
             why(write_atomic(folder.path(), b"")),
             (Operation::Inspect, Cause::FolderInTheWay)
@@ -327,10 +307,7 @@ mod tests {
             write_atomic(&path, b"later").unwrap();
             assert_eq!(mode(&path), 0o640);
             set_mode(&path, 0o444);
-            assert_eq!(
-                why(write_atomic(&path, b"")),
-                (Operation::Replace, Cause::ReadOnly)
-            );
+            assert_eq!(why(write_atomic(&path, b"")), (Operation::Replace, Cause::ReadOnly));
             assert_eq!(fs::read(&path).unwrap(), b"later");
         }
 
@@ -365,10 +342,7 @@ mod tests {
         fn full_device_is_reported() {
             let full = Path::new("/dev/full");
             if full.exists() {
-                assert_eq!(
-                    why(write_atomic(full, b"x")),
-                    (Operation::Write, Cause::DiskFull)
-                );
+                assert_eq!(why(write_atomic(full, b"x")), (Operation::Write, Cause::DiskFull));
                 write_atomic(Path::new("/dev/null"), b"x").unwrap();
             }
         }

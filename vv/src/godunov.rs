@@ -86,10 +86,7 @@ impl fmt::Display for GodunovError {
             Self::Input(error) => error.fmt(f),
             Self::NoCells => f.write_str("no cells"),
             Self::MixedGamma { expected, found } => {
-                write!(
-                    f,
-                    "gamma = {found} differs from that of the first cell, {expected}"
-                )
+                write!(f, "gamma = {found} differs from that of the first cell, {expected}")
             }
             Self::Breakdown { cell, time } => {
                 write!(f, "no admissible state in cell {cell} at time {time}")
@@ -160,10 +157,7 @@ impl Godunov {
             lowest = lowest.min(above("pressure", gas.pressure, 0.0)?);
             signal_speed = signal_speed.max(gas.velocity.abs() + gas.sound_speed());
             if gas.gamma != first.gamma {
-                return Err(GodunovError::MixedGamma {
-                    expected: first.gamma,
-                    found: gas.gamma,
-                });
+                return Err(GodunovError::MixedGamma { expected: first.gamma, found: gas.gamma });
             }
         }
         let padding = [first; GHOSTS];
@@ -173,16 +167,9 @@ impl Godunov {
             domain,
             scheme: Scheme::new(first.gamma, FLOOR_FRACTION * lowest),
             width: length / cells.len() as f64,
-            primitive: [
-                field(|w| w.density),
-                field(|w| w.velocity),
-                field(|w| w.pressure),
-            ],
+            primitive: [field(|w| w.density), field(|w| w.velocity), field(|w| w.pressure)],
             conserved: [0, 1, 2].map(|k| cells.iter().map(|w| w.conserved()[k]).collect()),
-            faces: Faces {
-                low: [[0.0; BLOCK + 2]; 3],
-                high: [[0.0; BLOCK + 2]; 3],
-            },
+            faces: Faces { low: [[0.0; BLOCK + 2]; 3], high: [[0.0; BLOCK + 2]; 3] },
             flux: [[0.0; BLOCK + 2]; 3],
             time: 0.0,
             signal_speed,
@@ -199,11 +186,7 @@ impl Godunov {
     pub fn advance_to(&mut self, time: f64) -> Result<(), GodunovError> {
         at_least("time", time, self.time)?;
         while self.time < time {
-            let startup = if self.work.steps < STARTUP_STEPS {
-                STARTUP_FACTOR
-            } else {
-                1.0
-            };
+            let startup = if self.work.steps < STARTUP_STEPS { STARTUP_FACTOR } else { 1.0 };
             let stable = startup * self.domain.cfl * self.width / self.signal_speed;
             let left = time - self.time;
             // The last two steps share what is left, so that none is tiny.
@@ -255,12 +238,7 @@ impl Godunov {
     pub fn cells(&self) -> impl ExactSizeIterator<Item = Gas> + '_ {
         (GHOSTS..GHOSTS + self.len()).map(|i| {
             let [density, velocity, pressure] = self.primitive.each_ref().map(|w| w[i]);
-            Gas {
-                density,
-                velocity,
-                pressure,
-                gamma: self.scheme.gamma,
-            }
+            Gas { density, velocity, pressure, gamma: self.scheme.gamma }
         })
     }
 
@@ -306,10 +284,7 @@ impl Godunov {
         self.signal_speed = 0.0;
         for start in (0..cells).step_by(BLOCK) {
             let count = BLOCK.min(cells - start);
-            let stencil = self
-                .primitive
-                .each_ref()
-                .map(|w| &w[start..][..count + 2 * GHOSTS]);
+            let stencil = self.primitive.each_ref().map(|w| &w[start..][..count + 2 * GHOSTS]);
             self.scheme.reconstruct(stencil, ratio, &mut self.faces);
             let speed = self.scheme.fluxes(&self.faces, count + 1, &mut self.flux);
             self.signal_speed = self.signal_speed.max(speed);
@@ -320,11 +295,7 @@ impl Godunov {
             }
             for (k, flux) in self.flux.iter().enumerate() {
                 let entered = if start == 0 { flux[0] } else { 0.0 };
-                let left = if start + count == cells {
-                    flux[count]
-                } else {
-                    0.0
-                };
+                let left = if start + count == cells { flux[count] } else { 0.0 };
                 self.inflow[k] += dt * (entered - left);
             }
         }
@@ -335,12 +306,7 @@ impl Godunov {
         self.work.steps += 1;
         self.work.cell_steps += cells as u64;
         self.work.floored += floored;
-        bad.map_or(Ok(()), |cell| {
-            Err(GodunovError::Breakdown {
-                cell,
-                time: reached,
-            })
-        })
+        bad.map_or(Ok(()), |cell| Err(GodunovError::Breakdown { cell, time: reached }))
     }
 }
 

@@ -131,9 +131,7 @@ pub fn rms(errors: &[f64]) -> Result<f64, NormError> {
 /// [`NormError`] if `errors` is empty or holds a non-finite value.
 pub fn linf(errors: &[f64]) -> Result<f64, NormError> {
     check("errors", errors, 1)?;
-    Ok(errors
-        .iter()
-        .fold(0.0, |largest, error| error.abs().max(largest)))
+    Ok(errors.iter().fold(0.0, |largest, error| error.abs().max(largest)))
 }
 
 /// Weighted mean of the absolute error, `sum_i w_i |e_i| / sum_i w_i`. With particle masses as
@@ -145,10 +143,7 @@ pub fn linf(errors: &[f64]) -> Result<f64, NormError> {
 pub fn l1_weighted(errors: &[f64], weights: &[f64]) -> Result<f64, NormError> {
     check("errors", errors, 1)?;
     check_measure("weights", weights, errors.len())?;
-    weighted_mean(
-        "weight above zero",
-        weights.iter().copied().zip(errors.iter().copied()),
-    )
+    weighted_mean("weight above zero", weights.iter().copied().zip(errors.iter().copied()))
 }
 
 /// L1 norm inside a window, `sum L_i |e_i| / sum L_i` over the particles with `a < x_i < b`;
@@ -168,13 +163,8 @@ pub fn window_l1(
     check_paired("positions", x, errors.len())?;
     check_measure("particle lengths", lengths, errors.len())?;
     let inside = |&(&x, _): &(&f64, _)| window.0 < x && x < window.1;
-    let particles = x
-        .iter()
-        .zip(lengths.iter().copied().zip(errors.iter().copied()));
-    weighted_mean(
-        "particle length in the window",
-        particles.filter(inside).map(|(_, pair)| pair),
-    )
+    let particles = x.iter().zip(lengths.iter().copied().zip(errors.iter().copied()));
+    weighted_mean("particle length in the window", particles.filter(inside).map(|(_, pair)| pair))
 }
 
 /// Weighted L1 norm divided by the range of the exact field, `max - min` of `exact` (at the
@@ -185,13 +175,10 @@ pub fn window_l1(
 pub fn relative_l1(errors: &[f64], weights: &[f64], exact: &[f64]) -> Result<f64, NormError> {
     let norm = l1_weighted(errors, weights)?;
     check_paired("exact field", exact, errors.len())?;
-    let (low, high) = exact.iter().fold((f64::MAX, f64::MIN), |(low, high), &f| {
-        (low.min(f), high.max(f))
-    });
+    let (low, high) =
+        exact.iter().fold((f64::MAX, f64::MIN), |(low, high), &f| (low.min(f), high.max(f)));
     if low == high {
-        return Err(NormError::NoMeasure {
-            what: "range in the exact field",
-        });
+        return Err(NormError::NoMeasure { what: "range in the exact field" });
     }
     // Halves, because `high - low` itself may overflow.
     Ok(0.5 * norm / (0.5 * high - 0.5 * low))
@@ -217,35 +204,22 @@ fn weighted_mean(
     what: &'static str,
     pairs: impl Iterator<Item = (f64, f64)>,
 ) -> Result<f64, NormError> {
-    let (weight, sum) = pairs.fold((0.0, 0.0), |(weight, sum), (w, f)| {
-        (weight + w, sum + w * f.abs())
-    });
+    let (weight, sum) =
+        pairs.fold((0.0, 0.0), |(weight, sum), (w, f)| (weight + w, sum + w * f.abs()));
     if weight == 0.0 {
         return Err(NormError::NoMeasure { what });
     }
     let mean = sum / weight;
-    if mean.is_finite() {
-        Ok(mean)
-    } else {
-        Err(NormError::Overflow)
-    }
+    if mean.is_finite() { Ok(mean) } else { Err(NormError::Overflow) }
 }
 
 /// At least `wanted` values, all finite.
 fn check(what: &'static str, values: &[f64], wanted: usize) -> Result<(), NormError> {
     if values.len() < wanted {
-        return Err(NormError::TooFew {
-            what,
-            found: values.len(),
-            wanted,
-        });
+        return Err(NormError::TooFew { what, found: values.len(), wanted });
     }
     match values.iter().position(|value| !value.is_finite()) {
-        Some(index) => Err(NormError::NonFinite {
-            what,
-            index,
-            value: values[index],
-        }),
+        Some(index) => Err(NormError::NonFinite { what, index, value: values[index] }),
         None => Ok(()),
     }
 }
@@ -253,11 +227,7 @@ fn check(what: &'static str, values: &[f64], wanted: usize) -> Result<(), NormEr
 /// Exactly `wanted` values, all finite.
 fn check_paired(what: &'static str, values: &[f64], wanted: usize) -> Result<(), NormError> {
     if values.len() != wanted {
-        return Err(NormError::LengthsDiffer {
-            what,
-            found: values.len(),
-            wanted,
-        });
+        return Err(NormError::LengthsDiffer { what, found: values.len(), wanted });
     }
     check(what, values, 1)
 }
@@ -266,11 +236,7 @@ fn check_paired(what: &'static str, values: &[f64], wanted: usize) -> Result<(),
 fn check_measure(what: &'static str, values: &[f64], wanted: usize) -> Result<(), NormError> {
     check_paired(what, values, wanted)?;
     match values.iter().position(|&value| value < 0.0) {
-        Some(index) => Err(NormError::Negative {
-            what,
-            index,
-            value: values[index],
-        }),
+        Some(index) => Err(NormError::Negative { what, index, value: values[index] }),
         None => Ok(()),
     }
 }
@@ -291,10 +257,7 @@ mod tests {
         assert!(near(linf(&errors)?, 4.0));
         assert!(near(Norm::L1.of(&errors)?, 1.75));
         assert!(near(l1_weighted(&errors, &[1.0, 2.0, 0.0, 1.0])?, 2.75));
-        assert!(near(
-            relative_l1(&errors, &[1.0; 4], &[1.0, 4.5, 2.0, 1.0])?,
-            0.5
-        ));
+        assert!(near(relative_l1(&errors, &[1.0; 4], &[1.0, 4.5, 2.0, 1.0])?, 0.5));
         assert!(near(rms(&[1e200, -1e200])?, 1e200));
         assert!(rms(&[0.0; 3])? == 0.0);
         Ok(())
@@ -302,19 +265,11 @@ mod tests {
 
     #[test]
     fn window_is_open_and_divides_by_the_length_inside() -> Result<(), NormError> {
-        let (x, errors, lengths) = (
-            [0.0, 1.0, 2.0, 3.0],
-            [9.0, 1.0, -4.0, 9.0],
-            [1.0, 2.0, 1.0, 1.0],
-        );
+        let (x, errors, lengths) =
+            ([0.0, 1.0, 2.0, 3.0], [9.0, 1.0, -4.0, 9.0], [1.0, 2.0, 1.0, 1.0]);
         assert!(near(window_l1(&x, &errors, &lengths, (0.0, 3.0))?, 2.0));
         let empty = window_l1(&x, &errors, &lengths, (0.2, 0.8));
-        assert_eq!(
-            empty,
-            Err(NormError::NoMeasure {
-                what: "particle length in the window"
-            })
-        );
+        assert_eq!(empty, Err(NormError::NoMeasure { what: "particle length in the window" }));
         Ok(())
     }
 
@@ -325,10 +280,7 @@ mod tests {
         assert!(near(Norm::L1.phase_average(&values)?, 4.0));
         assert!(near(Norm::Linf.phase_average(&values)?, 7.0));
         let negative = Norm::L1.phase_average(&[1.0, -1.0]);
-        assert!(matches!(
-            negative,
-            Err(NormError::Negative { index: 1, .. })
-        ));
+        assert!(matches!(negative, Err(NormError::Negative { index: 1, .. })));
         Ok(())
     }
 
@@ -339,10 +291,7 @@ mod tests {
         assert!(near(roughness(&chain(odd_even))?, 0.25));
         assert!(roughness(&chain(|i| 7.0 + i * (1.0 - i * (2.0 - i))))? < 1e-10);
         assert!(roughness(&chain(|i| (0.2 * i).sin()))? < 1e-4);
-        assert!(matches!(
-            roughness(&[1.0; 4]),
-            Err(NormError::TooFew { wanted: 5, .. })
-        ));
+        assert!(matches!(roughness(&[1.0; 4]), Err(NormError::TooFew { wanted: 5, .. })));
         Ok(())
     }
 

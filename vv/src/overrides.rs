@@ -56,27 +56,18 @@ fn apply_one(scene: &Scene, text: &str) -> Result<Scene, OverrideError> {
         return Err(OverrideError::NoValue(text.to_owned()));
     };
     let (key, value) = (key.trim(), value.trim());
-    let bad = |reason: String| OverrideError::BadValue {
-        key: key.into(),
-        value: value.into(),
-        reason,
-    };
+    let bad =
+        |reason: String| OverrideError::BadValue { key: key.into(), value: value.into(), reason };
 
     let mut tree = serde_json::to_value(scene).map_err(|e| bad(e.to_string()))?;
     let in_method = !key.contains('.') && tree["method"].get(key).is_some();
-    let path = if in_method {
-        format!("method.{key}")
-    } else {
-        key.to_owned()
-    };
+    let path = if in_method { format!("method.{key}") } else { key.to_owned() };
     *place(&mut tree, &path, key, value)? = parse(value).map_err(bad)?;
 
     // The JSON text of the value keeps the path of an error; the scene has no other route in.
     serde_path_to_error::deserialize(tree).map_err(|e| {
         let inner = e.inner().to_string();
-        bad(inner
-            .replace("invalid type: ", "found ")
-            .replace("unknown variant", "unknown choice"))
+        bad(inner.replace("invalid type: ", "found ").replace("unknown variant", "unknown choice"))
     })
 }
 
@@ -99,9 +90,7 @@ fn place<'a>(
             let mut names: Vec<&str> = known.iter().map(String::as_str).collect();
             let method: Vec<String>;
             if place == "the scene" {
-                method = at["method"]
-                    .as_object()
-                    .map_or(vec![], |m| m.keys().cloned().collect());
+                method = at["method"].as_object().map_or(vec![], |m| m.keys().cloned().collect());
                 names.extend(method.iter().map(String::as_str));
                 return Err(no_key(key, value, part, "the scene or its method", &names));
             }
@@ -138,9 +127,7 @@ fn no_key(key: &str, value: &str, part: &str, place: &str, known: &[&str]) -> Ov
 /// A TOML value, or a bare word.
 fn parse(text: &str) -> Result<Value, String> {
     let value = match toml::from_str::<toml::Table>(&format!("value = {text}")) {
-        Ok(mut table) => table
-            .remove("value")
-            .unwrap_or(toml::Value::String(text.into())),
+        Ok(mut table) => table.remove("value").unwrap_or(toml::Value::String(text.into())),
         Err(_) => toml::Value::String(text.into()),
     };
     json(value)
@@ -159,9 +146,7 @@ mod tests {
     use whipple_solver::method::{Heating, Preset};
 
     fn changed(set: &str) -> Result<Scene, String> {
-        let scene = crate::cases::find("noh")
-            .expect("a case")
-            .scene(Preset::Default, "", 10);
+        let scene = crate::cases::find("noh").expect("a case").scene(Preset::Default, "", 10);
         apply(scene, &[set.to_owned()]).map_err(|e| e.to_string())
     }
 
@@ -171,10 +156,7 @@ mod tests {
             assert_eq!(changed(key).map(|s| s.method.heating), Ok(Heating::Printed));
         }
         assert_eq!(changed("cfl=1e-1").map(|s| s.method.cfl), Ok(0.1));
-        assert_eq!(
-            changed("bodies.0.particles=7").map(|s| s.bodies[0].particles),
-            Ok(7)
-        );
+        assert_eq!(changed("bodies.0.particles=7").map(|s| s.bodies[0].particles), Ok(7));
         assert_eq!(changed("stop_time=1").map(|s| s.stop_time), Ok(1.0));
     }
 

@@ -48,10 +48,7 @@ impl Scheme {
     /// A preset with its own density.
     #[must_use]
     pub fn preset(preset: Preset) -> Self {
-        Self::Particles {
-            preset,
-            density: preset.method().density,
-        }
+        Self::Particles { preset, density: preset.method().density }
     }
 
     /// Name for tables: `paper`, `default`, `default + kernel`, `Godunov`.
@@ -77,37 +74,21 @@ impl RunKey {
     /// Key of a case without variants.
     #[must_use]
     pub fn new(case: &str, scheme: Scheme, n: usize) -> Self {
-        Self {
-            case: case.into(),
-            variant: String::new(),
-            scheme,
-            n,
-        }
+        Self { case: case.into(), variant: String::new(), scheme, n }
     }
 
     /// The same run of another variant.
     #[must_use]
     pub fn variant(self, variant: &str) -> Self {
-        Self {
-            variant: variant.into(),
-            ..self
-        }
+        Self { variant: variant.into(), ..self }
     }
 
     /// File name of the record.
     #[must_use]
     pub fn file_name(&self) -> String {
-        let variant = if self.variant.is_empty() {
-            String::new()
-        } else {
-            format!("_{}", self.variant)
-        };
-        format!(
-            "{}{variant}_{}_n{}.json",
-            self.case,
-            self.scheme.slug(),
-            self.n
-        )
+        let variant =
+            if self.variant.is_empty() { String::new() } else { format!("_{}", self.variant) };
+        format!("{}{variant}_{}_n{}.json", self.case, self.scheme.slug(), self.n)
     }
 }
 
@@ -233,9 +214,7 @@ impl Provenance {
 fn commit() -> String {
     let git = |args: &[&str]| {
         let out = std::process::Command::new("git").args(args).output().ok()?;
-        out.status
-            .success()
-            .then(|| String::from_utf8_lossy(&out.stdout).trim().to_owned())
+        out.status.success().then(|| String::from_utf8_lossy(&out.stdout).trim().to_owned())
     };
     match git(&["rev-parse", "--short=12", "HEAD"]) {
         Some(head) => {
@@ -249,10 +228,8 @@ fn commit() -> String {
 
 fn cpu() -> String {
     let info = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
-    let name = info
-        .lines()
-        .find(|l| l.starts_with("model name"))
-        .and_then(|l| l.split(": ").nth(1));
+    let name =
+        info.lines().find(|l| l.starts_with("model name")).and_then(|l| l.split(": ").nth(1));
     name.map_or_else(|| std::env::consts::ARCH.to_owned(), str::to_owned)
 }
 
@@ -325,10 +302,7 @@ impl Records {
 }
 
 fn parse(path: &Path, text: &str) -> Result<RunRecord, RecordError> {
-    let malformed = |reason: String| RecordError::Malformed {
-        path: path.to_owned(),
-        reason,
-    };
+    let malformed = |reason: String| RecordError::Malformed { path: path.to_owned(), reason };
     let mut reader = serde_json::Deserializer::from_str(text);
     let record: RunRecord = serde_path_to_error::deserialize(&mut reader)
         .map_err(|e| malformed(format!("at `{}`: {}", e.path(), e.inner())))?;

@@ -128,21 +128,13 @@ impl Table {
             .from_reader(body.as_bytes());
         let mut lines = Vec::new();
         for record in reader.records() {
-            let record = record.map_err(|source| ReferenceError::Syntax {
-                file: file.into(),
-                source,
-            })?;
+            let record =
+                record.map_err(|source| ReferenceError::Syntax { file: file.into(), source })?;
             let line = head.len() as u64 + record.position().map_or(0, |at| line_of(body, at));
-            lines.push(Row {
-                line,
-                cells: record.iter().map(str::to_owned).collect(),
-            });
+            lines.push(Row { line, cells: record.iter().map(str::to_owned).collect() });
         }
         let mut lines = lines.into_iter();
-        let empty = |missing| ReferenceError::Empty {
-            file: file.into(),
-            missing,
-        };
+        let empty = |missing| ReferenceError::Empty { file: file.into(), missing };
         let header = lines.next().ok_or_else(|| empty("column names"))?;
         let table = Self {
             file: file.into(),
@@ -152,11 +144,7 @@ impl Table {
         };
         table.check_names(header.line)?;
         table.rows.iter().try_for_each(|row| table.check_row(row))?;
-        if table.rows.is_empty() {
-            Err(empty("rows"))
-        } else {
-            Ok(table)
-        }
+        if table.rows.is_empty() { Err(empty("rows")) } else { Ok(table) }
     }
 
     /// Name of the file, as given.
@@ -190,10 +178,7 @@ impl Table {
     /// [`ReferenceError::BadCell`] for a cell that is not a number.
     pub fn column(&self, name: &str) -> Result<Vec<f64>, ReferenceError> {
         let index = self.index(name)?;
-        self.rows
-            .iter()
-            .map(|row| self.number(row, index))
-            .collect()
+        self.rows.iter().map(|row| self.number(row, index)).collect()
     }
 
     /// As [`Table::column`], with `None` for an empty cell: a value the source does not give.
@@ -215,11 +200,7 @@ impl Table {
     /// [`ReferenceError::Missing`] for an unknown name, with the nearest one.
     pub fn text(&self, name: &str) -> Result<Vec<&str>, ReferenceError> {
         let index = self.index(name)?;
-        Ok(self
-            .rows
-            .iter()
-            .map(|row| row.cells[index].as_str())
-            .collect())
+        Ok(self.rows.iter().map(|row| row.cells[index].as_str()).collect())
     }
 
     /// The table of those rows whose cell in `column` is exactly `value`; at least one.
@@ -277,12 +258,8 @@ impl Table {
                 return Err(self.bad_cell(row.line, name, cell, NUMBER));
             }
         }
-        let ragged = ReferenceError::Ragged {
-            file: self.file.clone(),
-            line: row.line,
-            found,
-            wanted,
-        };
+        let ragged =
+            ReferenceError::Ragged { file: self.file.clone(), line: row.line, found, wanted };
         if found == wanted { Ok(()) } else { Err(ragged) }
     }
 
@@ -290,11 +267,7 @@ impl Table {
     fn missing(&self, kind: &str, name: &str, mut known: Vec<&str>) -> ReferenceError {
         known.dedup();
         let hint = did_you_mean(name, known.iter().copied());
-        let others = if known.len() > NAMES_SHOWN {
-            ", ..."
-        } else {
-            ""
-        };
+        let others = if known.len() > NAMES_SHOWN { ", ..." } else { "" };
         known.truncate(NAMES_SHOWN);
         ReferenceError::Missing {
             file: self.file.clone(),
@@ -314,13 +287,7 @@ impl Table {
     ) -> ReferenceError {
         let (file, column) = (self.file.clone(), column.to_owned());
         let found = cell.chars().take(40).collect();
-        ReferenceError::BadCell {
-            file,
-            line,
-            column,
-            found,
-            wanted,
-        }
+        ReferenceError::BadCell { file, line, column, found, wanted }
     }
 }
 
@@ -352,10 +319,7 @@ mod tests {
     #[test]
     fn columns_by_name() {
         let table = Table::parse("t.csv", GOOD).unwrap();
-        assert_eq!(
-            table.provenance(),
-            ["Park & Fahrenthold, Table 5", "printed"]
-        );
+        assert_eq!(table.provenance(), ["Park & Fahrenthold, Table 5", "printed"]);
         assert_eq!((table.file(), table.row_count()), ("t.csv", 2));
         assert_eq!(table.names(), ["case", "length", "speed"]);
         assert_eq!(table.column("length").unwrap(), [6.08, 6.59]);
@@ -372,10 +336,7 @@ mod tests {
         for other in [format!("\u{feff}{GOOD}"), GOOD.trim_end().into()] {
             assert_eq!(Table::parse("t.csv", &other).unwrap(), table);
         }
-        assert_eq!(
-            Table::parse("t.csv", &GOOD.replace('\n', "\r\n")).unwrap(),
-            table
-        );
+        assert_eq!(Table::parse("t.csv", &GOOD.replace('\n', "\r\n")).unwrap(), table);
     }
 
     #[test]
@@ -417,27 +378,12 @@ mod tests {
     fn bad_files_are_refused() {
         let empty = "wanted: `#` source lines, a line of column names, rows";
         assert_eq!(parsed(""), format!("t.csv: no column names; {empty}"));
-        assert_eq!(
-            parsed("# source\n\n"),
-            format!("t.csv: no column names; {empty}")
-        );
-        assert_eq!(
-            parsed("# source\na,b\n"),
-            format!("t.csv: no rows; {empty}")
-        );
+        assert_eq!(parsed("# source\n\n"), format!("t.csv: no column names; {empty}"));
+        assert_eq!(parsed("# source\na,b\n"), format!("t.csv: no rows; {empty}"));
         let ragged = "cells, wanted 2, one for each column name";
-        assert_eq!(
-            parsed("# s\na,b\n1,2\n\n\n3\n"),
-            format!("t.csv, line 6: 1 {ragged}")
-        );
-        assert_eq!(
-            parsed("a,b\r\n1,2\r\n\r\n3,4,5\r\n"),
-            format!("t.csv, line 4: 3 {ragged}")
-        );
-        assert_eq!(
-            parsed("a,b\n1,2\n# late\n3,4\n"),
-            format!("t.csv, line 3: 1 {ragged}")
-        );
+        assert_eq!(parsed("# s\na,b\n1,2\n\n\n3\n"), format!("t.csv, line 6: 1 {ragged}"));
+        assert_eq!(parsed("a,b\r\n1,2\r\n\r\n3,4,5\r\n"), format!("t.csv, line 4: 3 {ragged}"));
+        assert_eq!(parsed("a,b\n1,2\n# late\n3,4\n"), format!("t.csv, line 3: 1 {ragged}"));
         for bad in ["NaN", "-inf", "1e999"] {
             assert_eq!(
                 parsed(&format!("# s\na,b\n1,{bad}\n")),

@@ -103,13 +103,7 @@ impl<'a> Driver<'a> {
     /// An invalid scene.
     pub fn new(scene: &Scene, monitor: &'a dyn Monitor) -> Result<Self, SceneError> {
         let solver = whipple_solver::build(scene)?;
-        Ok(Self {
-            solver,
-            stop: scene.stop_time,
-            monitor,
-            cpu: Duration::ZERO,
-            timed: None,
-        })
+        Ok(Self { solver, stop: scene.stop_time, monitor, cpu: Duration::ZERO, timed: None })
     }
 
     /// Steps to `time`, on the clock.
@@ -138,10 +132,7 @@ impl<'a> Driver<'a> {
     /// Ends the timed part of the run: later steps only sample.
     pub fn stop_clock(&mut self) {
         let counters = self.solver.counters();
-        self.timed = Some(Timed {
-            steps: counters.steps,
-            particle_steps: counters.particle_steps,
-        });
+        self.timed = Some(Timed { steps: counters.steps, particle_steps: counters.particle_steps });
     }
 
     /// Steps to `time`, off the clock.
@@ -163,9 +154,7 @@ impl<'a> Driver<'a> {
             observe(self.solver.as_ref());
             let done = self.solver.counters();
             if done.steps.is_multiple_of(STEPS_PER_LOOK)
-                && !self
-                    .monitor
-                    .tick(self.solver.time(), self.stop, done.particle_steps)
+                && !self.monitor.tick(self.solver.time(), self.stop, done.particle_steps)
             {
                 return Err(RunError::Interrupted);
             }
@@ -212,12 +201,7 @@ pub struct Run {
 /// # Errors
 /// Whatever else prevents a record.
 pub fn run(case: &dyn Case, request: Request, monitor: &dyn Monitor) -> Result<Run, RunError> {
-    let Request {
-        key,
-        scene,
-        threads,
-        command,
-    } = request;
+    let Request { key, scene, threads, command } = request;
     let mut record = RunRecord {
         schema: SCHEMA,
         key,
@@ -243,18 +227,12 @@ pub fn run(case: &dyn Case, request: Request, monitor: &dyn Monitor) -> Result<R
             debug_assert_eq!(record.key.scheme, Scheme::Godunov);
             let start = ProcessTime::now();
             let eulerian = case.eulerian(&record.key.variant, record.key.n)?;
-            record.cpu_seconds = eulerian
-                .cpu
-                .unwrap_or_else(|| start.elapsed())
-                .as_secs_f64();
+            record.cpu_seconds = eulerian.cpu.unwrap_or_else(|| start.elapsed()).as_secs_f64();
             record.steps = eulerian.steps;
             record.particle_steps = eulerian.cell_steps;
             record.energy_drift = eulerian.energy_drift;
             fill(&mut record, eulerian.findings);
-            Ok(Run {
-                record,
-                failure: None,
-            })
+            Ok(Run { record, failure: None })
         }
     }
 }
@@ -270,20 +248,17 @@ fn particles(
     match case.measure(&scene, &record.key, &mut driver) {
         Ok(findings) => fill(&mut record, findings),
         Err(RunError::Step(error)) => {
-            record.outcome = Outcome::Failed {
-                kind: error.kind().into(),
-                message: error.to_string(),
-            };
+            record.outcome =
+                Outcome::Failed { kind: error.kind().into(), message: error.to_string() };
             failure = Some(error);
         }
         Err(other) => return Err(other),
     }
     let solver = driver.solver();
     let (counters, ledger) = (solver.counters(), *solver.ledger());
-    let timed = driver.timed.unwrap_or(Timed {
-        steps: counters.steps,
-        particle_steps: counters.particle_steps,
-    });
+    let timed = driver
+        .timed
+        .unwrap_or(Timed { steps: counters.steps, particle_steps: counters.particle_steps });
     record.steps = timed.steps;
     record.particle_steps = timed.particle_steps;
     record.cpu_seconds = driver.cpu.as_secs_f64();

@@ -73,10 +73,7 @@ mod tests {
         assert_eq!(nearest("m", known), Some("n"));
         assert_eq!(nearest("pressure", known), None);
         assert_eq!(nearest("density", []), None);
-        assert_eq!(
-            did_you_mean("temprature", known),
-            "; did you mean `temperature`?"
-        );
+        assert_eq!(did_you_mean("temprature", known), "; did you mean `temperature`?");
         assert_eq!(did_you_mean("pressure", known), "");
     }
 

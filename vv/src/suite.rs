@@ -107,12 +107,8 @@ pub fn run_suite(
                 key,
             };
             let result = run(*case, request, monitor);
-            let mut record = result
-                .map_err(|source| SuiteError::Run {
-                    key: file.clone(),
-                    source,
-                })?
-                .record;
+            let mut record =
+                result.map_err(|source| SuiteError::Run { key: file.clone(), source })?.record;
             if !case.draws(&record.key) {
                 record.profile = None;
                 record.history = None;
@@ -129,10 +125,8 @@ pub fn run_suite(
 /// # Errors
 /// What the file system says.
 pub fn write_record(path: &Path, record: &RunRecord) -> Result<(), SuiteError> {
-    let json = serde_json::to_string_pretty(&compact(record)).map_err(|e| SuiteError::Json {
-        key: path.display().to_string(),
-        reason: e.to_string(),
-    })?;
+    let json = serde_json::to_string_pretty(&compact(record))
+        .map_err(|e| SuiteError::Json { key: path.display().to_string(), reason: e.to_string() })?;
     Ok(write_atomic(path, (json + "\n").as_bytes())?)
 }
 

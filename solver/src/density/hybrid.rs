@@ -27,10 +27,7 @@ impl DensityScheme<1> for Hybrid {
     #[inline(always)]
     fn row(&self, side: &Side, contact: &Contact) -> Row {
         if !contact.nearest {
-            return Row {
-                rho: side.rho_0,
-                ..Row::default()
-            };
+            return Row { rho: side.rho_0, ..Row::default() };
         }
         Row {
             rho: side.rho_0 * contact.length / contact.r,
@@ -46,13 +43,8 @@ impl DensityScheme<1> for Hybrid {
     /// Mass over the mean length of the particle's segments.
     fn report(&self, chain: &Chain, x: &[f64], _: &(), i: usize) -> f64 {
         let side = chain.side(i, 0.0, 0.0);
-        let (sum, count) = chain
-            .touching(x, i)
-            .fold((0.0, 0.0), |(s, n), zeta| (s + zeta, n + 1.0));
-        if count == 0.0 {
-            side.rho_0
-        } else {
-            side.rho_0 * count / sum
-        }
+        let (sum, count) =
+            chain.touching(x, i).fold((0.0, 0.0), |(s, n), zeta| (s + zeta, n + 1.0));
+        if count == 0.0 { side.rho_0 } else { side.rho_0 * count / sum }
     }
 }

@@ -86,13 +86,7 @@ impl Kernel {
     pub fn new(support: f64) -> Self {
         let (reference, stiffness) = (Vec::new(), Vec::new());
         let (reach, extent) = (Vec::new(), Vec::new());
-        Self {
-            spline: Spline { support },
-            reference,
-            stiffness,
-            reach,
-            extent,
-        }
+        Self { spline: Spline { support }, reference, stiffness, reach, extent }
     }
 
     /// Calls `visit` with the contact coordinates of particle `i` in reach at compression `chi`,
@@ -122,12 +116,7 @@ impl Kernel {
     /// Newton's method on the constraint, which falls monotonically with `chi`.
     fn solve(&self, chain: &Chain, x: &[f64], i: usize, guess: f64) -> Solved {
         let wanted = self.reference[i];
-        let mut at = Solved {
-            chi: guess,
-            stiffness: 0.0,
-            reach: [i as u32; 2],
-            evaluations: 0,
-        };
+        let mut at = Solved { chi: guess, stiffness: 0.0, reach: [i as u32; 2], evaluations: 0 };
         for _ in 0..MOST_ITERATIONS {
             let (chi, mut sum, mut stiffness) = (at.chi, 1.0, 0.0);
             let mut evaluations = 0;
@@ -173,11 +162,7 @@ impl DensityScheme<1> for Kernel {
         let chi = side.rho / side.rho_0;
         let pull = -self.spline.gradient(chi * contact.zeta) / self.stiffness[side.index];
         let slope = side.rho * pull / contact.length;
-        Row {
-            rho: side.rho,
-            lever: side.m / (side.rho * side.rho) * slope,
-            slope,
-        }
+        Row { rho: side.rho, lever: side.m / (side.rho * side.rho) * slope, slope }
     }
 
     fn start(&mut self, chain: &Chain, x: &[f64], column: &mut Vec<f64>) {
@@ -189,8 +174,7 @@ impl DensityScheme<1> for Kernel {
                 let left = (0..i).rev().take_while(own);
                 let right = (i + 1..n).take_while(own);
                 let weight = |j: usize| {
-                    self.spline
-                        .weight(chi * chain.contact_at(x, i.min(j), i.max(j)).zeta)
+                    self.spline.weight(chi * chain.contact_at(x, i.min(j), i.max(j)).zeta)
                 };
                 let near = |w: &f64| *w > 0.0;
                 1.0 + left.map(weight).take_while(near).sum::<f64>()
@@ -208,10 +192,8 @@ impl DensityScheme<1> for Kernel {
 
     /// The sweep that the paper's scheme removes.
     fn resum(&mut self, chain: &Chain, x: &[f64], column: &mut Vec<f64>, counters: &mut Counters) {
-        let (mut stiffness, mut reach) = (
-            std::mem::take(&mut self.stiffness),
-            std::mem::take(&mut self.reach),
-        );
+        let (mut stiffness, mut reach) =
+            (std::mem::take(&mut self.stiffness), std::mem::take(&mut self.reach));
         let solve =
             |start: usize, rho: &mut [f64], stiffness: &mut [f64], reach: &mut [[u32; 2]]| {
                 let mut evaluations = 0;

@@ -28,10 +28,7 @@ impl DensityScheme<1> for Nonholonomic {
     #[inline(always)]
     fn row(&self, side: &Side, contact: &Contact) -> Row {
         if !contact.nearest {
-            return Row {
-                rho: side.rho,
-                ..Row::default()
-            };
+            return Row { rho: side.rho, ..Row::default() };
         }
         // The share l / V_o is 1, or 2 for the half particle at the end of a body of nodes, which
         // has one neighbour where the others have two.

@@ -21,13 +21,7 @@ pub struct IdealGas {
 
 impl Eos for IdealGas {
     fn new(_rho_0: f64, data: &EosData, sound_speed: SoundSpeed) -> Option<Self> {
-        let &EosData::IdealGas {
-            adiabatic_index,
-            c_v,
-            u_0,
-            theta_0,
-        } = data
-        else {
+        let &EosData::IdealGas { adiabatic_index, c_v, u_0, theta_0 } = data else {
             return None;
         };
         let u_still = match sound_speed {
@@ -35,14 +29,7 @@ impl Eos for IdealGas {
             SoundSpeed::Thermodynamic | SoundSpeed::Reference => u_0,
         };
         let u_constant = (sound_speed == SoundSpeed::Reference).then_some(u_0);
-        Some(Self {
-            adiabatic_index,
-            c_v,
-            u_0,
-            theta_0,
-            u_still,
-            u_constant,
-        })
+        Some(Self { adiabatic_index, c_v, u_0, theta_0, u_still, u_constant })
     }
 
     #[inline(always)]

@@ -19,13 +19,7 @@ impl Eos for Linear {
         let &EosData::Linear { bulk, c_v, theta_0 } = data else {
             return None;
         };
-        Some(Self {
-            bulk,
-            rho_0,
-            c_v,
-            theta_0,
-            sound_speed: (bulk / rho_0).sqrt(),
-        })
+        Some(Self { bulk, rho_0, c_v, theta_0, sound_speed: (bulk / rho_0).sqrt() })
     }
 
     #[inline(always)]

@@ -35,12 +35,7 @@ fn wave_speed() -> f64 {
 }
 
 fn block(velocity: f64) -> Block {
-    Block {
-        length: LENGTH,
-        density: DENSITY,
-        wave_speed: wave_speed(),
-        velocity,
-    }
+    Block { length: LENGTH, density: DENSITY, wave_speed: wave_speed(), velocity }
 }
 
 impl Case for BlockCollision {
@@ -86,18 +81,11 @@ impl Case for BlockCollision {
             units: Units::CmGUsMbar,
             stop_time: GAP / speed + TRANSITS * LENGTH / wave_speed(),
             method,
-            boundaries: Boundaries {
-                left: Boundary::Free,
-                right: Boundary::Free,
-            },
+            boundaries: Boundaries { left: Boundary::Free, right: Boundary::Free },
             materials: vec![Material {
                 name: "steel".into(),
                 density: DENSITY,
-                eos: EosData::Linear {
-                    bulk: BULK,
-                    c_v: 0.448e-5,
-                    theta_0: 300.0,
-                },
+                eos: EosData::Linear { bulk: BULK, c_v: 0.448e-5, theta_0: 300.0 },
             }],
             bodies: vec![body(0.0, n / 2, speed), body(LENGTH + GAP, n - n / 2, 0.0)],
         }
@@ -131,19 +119,10 @@ impl Case for BlockCollision {
         let (a, b) = (mean(&|i| s.v[i], 0..first), mean(&|i| s.v[i], first..key.n));
         let mut findings = Findings::default();
         let mut enter = |name: &str, value| findings.norms.insert(name.into(), value);
-        enter(
-            "left_velocity_error",
-            (a - exact.left_velocity / speed).abs(),
-        );
-        enter(
-            "right_velocity_error",
-            (b - exact.right_velocity / speed).abs(),
-        );
+        enter("left_velocity_error", (a - exact.left_velocity / speed).abs());
+        enter("right_velocity_error", (b - exact.right_velocity / speed).abs());
         enter("left_as_vibration_and_heat", 1.0 - a * a - b * b);
-        enter(
-            "separation",
-            (s.x[first] - s.x[first - 1]) / (LENGTH / first as f64) - 1.0,
-        );
+        enter("separation", (s.x[first] - s.x[first - 1]) / (LENGTH / first as f64) - 1.0);
         let mut series = Series::default();
         series.0.insert("time".into(), time);
         series.0.insert("left".into(), left);
@@ -153,17 +132,9 @@ impl Case for BlockCollision {
     }
 
     fn runs(&self, level: Level) -> Vec<RunKey> {
-        let sizes = if level == Level::Quick {
-            &SIZES[1..2]
-        } else {
-            SIZES
-        };
+        let sizes = if level == Level::Quick { &SIZES[1..2] } else { SIZES };
         let mut keys = both_presets(ID, sizes);
-        keys.push(RunKey::new(
-            ID,
-            super::kernel_default(),
-            self.default_size(),
-        ));
+        keys.push(RunKey::new(ID, super::kernel_default(), self.default_size()));
         keys
     }
 
@@ -204,10 +175,7 @@ impl Case for BlockCollision {
     }
 
     fn figures(&self, records: &Records) -> Vec<Figure> {
-        let axes = (
-            Axis::linear("time, µs"),
-            Axis::linear("mean velocity of a block / V"),
-        );
+        let axes = (Axis::linear("time, µs"), Axis::linear("mean velocity of a block / V"));
         let mut panel = Panel::new("", axes.0, axes.1);
         for preset in Preset::ALL {
             let key = RunKey::new(ID, Scheme::preset(preset), self.default_size());

@@ -11,16 +11,8 @@ use whipple_solver::scene::{Boundaries, Boundary};
 
 const ID: &str = "einfeldt-123";
 const MEMBRANE: f64 = 0.5;
-const LEFT: Gas = Gas {
-    density: 1.0,
-    velocity: -2.0,
-    pressure: 0.4,
-    gamma: 1.4,
-};
-const RIGHT: Gas = Gas {
-    velocity: 2.0,
-    ..LEFT
-};
+const LEFT: Gas = Gas { density: 1.0, velocity: -2.0, pressure: 0.4, gamma: 1.4 };
+const RIGHT: Gas = Gas { velocity: 2.0, ..LEFT };
 const SIZES: &[usize] = &[100, 200, 400];
 
 /// The case.
@@ -32,12 +24,7 @@ pub(super) const CASE: GasProblem = GasProblem {
             outer ends move with the gas under its own pressure, so that no wave comes from there.",
     source: "Einfeldt et al., J. Comput. Phys. 92 (1991) 273; states as in ExactPack; exact Riemann solution",
     variants: &[""],
-    sizes: Sizes {
-        quick: &[200],
-        standard: SIZES,
-        drawn: 200,
-        fine: &[],
-    },
+    sizes: Sizes { quick: &[200], standard: SIZES, drawn: 200, fine: &[] },
     setup,
     claims,
     eulerian: true,
@@ -48,10 +35,7 @@ fn setup(_: &str) -> Result<Setup, RunError> {
     let pushed = Boundary::Pressure(LEFT.pressure);
     Ok(Setup {
         regions: two_regions((0.0, LEFT), MEMBRANE, (1.0, RIGHT)),
-        ends: Boundaries {
-            left: pushed,
-            right: pushed,
-        },
+        ends: Boundaries { left: pushed, right: pushed },
         u_0: 0.0,
         time: 0.15,
         exact: Box::new(move |x, t| Ok(riemann.sample((x - MEMBRANE) / t).gas)),
@@ -62,15 +46,8 @@ fn claims() -> Vec<Claim> {
     let study = "1D study, section 5: its best prototype at n = 200";
     let aim = Claims::new(ID, Kind::Verification, Weight::Aim, study);
     let key = RunKey::new(ID, Scheme::preset(Preset::Default), 200);
-    let keys = SIZES
-        .iter()
-        .map(|&n| RunKey::new(ID, Scheme::preset(Preset::Default), n))
-        .collect();
-    let order = Claims {
-        source: "first order in L1",
-        weight: Weight::Must,
-        ..aim
-    };
+    let keys = SIZES.iter().map(|&n| RunKey::new(ID, Scheme::preset(Preset::Default), n)).collect();
+    let order = Claims { source: "first order in L1", weight: Weight::Must, ..aim };
     let mut out = vec![
         aim.claim(
             "L1 ρ, n = 200, `default`",

@@ -83,32 +83,19 @@ impl Case for GalileanBoost {
         let boost = boost(&key.variant);
         let travelled = boost * scene.stop_time;
         let apart = |a: &[f64], b: &[f64], shift: f64| {
-            a.iter()
-                .zip(b)
-                .fold(0.0_f64, |worst, (a, b)| worst.max((a - shift - b).abs()))
+            a.iter().zip(b).fold(0.0_f64, |worst, (a, b)| worst.max((a - shift - b).abs()))
         };
         let mut findings = Findings::default();
         let mut enter = |name: &str, value| findings.norms.insert(name.into(), value);
-        enter(
-            "temperature_difference",
-            apart(&moving.theta, &still.theta, 0.0),
-        );
+        enter("temperature_difference", apart(&moving.theta, &still.theta, 0.0));
         enter("velocity_difference", apart(&moving.v, &still.v, boost));
         enter("position_difference", apart(&moving.x, &still.x, travelled));
         Ok(findings)
     }
 
     fn runs(&self, _: Level) -> Vec<RunKey> {
-        let of = |v: &&str| {
-            both_presets(ID, &[SIZE])
-                .into_iter()
-                .map(|k| k.variant(v))
-                .collect()
-        };
-        self.variants()
-            .iter()
-            .flat_map(|v: &&str| -> Vec<RunKey> { of(v) })
-            .collect()
+        let of = |v: &&str| both_presets(ID, &[SIZE]).into_iter().map(|k| k.variant(v)).collect();
+        self.variants().iter().flat_map(|v: &&str| -> Vec<RunKey> { of(v) }).collect()
     }
 
     fn claims(&self) -> Vec<Claim> {

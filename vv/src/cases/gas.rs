@@ -93,18 +93,12 @@ pub(super) fn two_regions(left: (f64, Gas), membrane: f64, right: (f64, Gas)) ->
         gradient: 0.0,
         share: (span.1 - span.0) / length,
     };
-    vec![
-        region((left.0, membrane), left.1),
-        region((membrane, right.0), right.1),
-    ]
+    vec![region((left.0, membrane), left.1), region((membrane, right.0), right.1)]
 }
 
 /// Walls at both ends.
 pub(super) fn walls(from: f64, to: f64) -> Boundaries {
-    Boundaries {
-        left: Boundary::Mirror(from),
-        right: Boundary::Mirror(to),
-    }
+    Boundaries { left: Boundary::Mirror(from), right: Boundary::Mirror(to) }
 }
 
 impl Setup {
@@ -124,12 +118,7 @@ impl Setup {
         for (k, region) in self.regions.iter().enumerate() {
             share += region.share;
             let until = (share * n as f64).round() as usize;
-            let Gas {
-                density,
-                velocity,
-                gamma,
-                ..
-            } = region.gas;
+            let Gas { density, velocity, gamma, .. } = region.gas;
             let material = format!("gas {}", k + 1);
             scene.materials.push(Material {
                 name: material.clone(),
@@ -152,10 +141,7 @@ impl Setup {
                 velocity: if region.gradient == 0.0 {
                     Profile::Uniform(velocity)
                 } else {
-                    Profile::Linear {
-                        at_origin: velocity,
-                        slope: region.gradient,
-                    }
+                    Profile::Linear { at_origin: velocity, slope: region.gradient }
                 },
                 energy: Profile::Uniform(self.u_0 + region.gas.energy()),
             });
@@ -166,11 +152,8 @@ impl Setup {
 
     /// Relative L1 errors of fields, and the fields beside the exact ones.
     pub(super) fn compare(&self, time: f64, fields: &Fields) -> Result<Findings, RunError> {
-        let exact: Vec<Gas> = fields
-            .x
-            .iter()
-            .map(|&x| (self.exact)(x, time))
-            .collect::<Result<_, _>>()?;
+        let exact: Vec<Gas> =
+            fields.x.iter().map(|&x| (self.exact)(x, time)).collect::<Result<_, _>>()?;
         type Field<'a> = (&'static str, &'a [f64], fn(&Gas) -> f64);
         let columns: [Field<'_>; 4] = [
             ("density", &fields.density, |g| g.density),
@@ -218,10 +201,7 @@ impl Setup {
         let cell = |k: usize| {
             let x = domain.start + (k as f64 + 0.5) * width;
             let region = self.regions.iter().find(|r| x < r.span.1).unwrap_or(last);
-            Gas {
-                velocity: region.gas.velocity + region.gradient * x,
-                ..region.gas
-            }
+            Gas { velocity: region.gas.velocity + region.gradient * x, ..region.gas }
         };
         let cells: Vec<Gas> = (0..n).map(cell).collect();
         Ok(Godunov::new(domain, &cells)?)
@@ -243,14 +223,7 @@ impl Fields {
     pub(super) fn of_particles(s: Snapshot, u_0: f64) -> Self {
         let (density, velocity, pressure) = (s.rho, s.v, s.pressure);
         let energy = s.u.into_iter().map(|u| u - u_0).collect();
-        Self {
-            x: s.x,
-            density,
-            velocity,
-            pressure,
-            energy,
-            mass: s.m,
-        }
+        Self { x: s.x, density, velocity, pressure, energy, mass: s.m }
     }
 
     pub(super) fn of_cells(code: &Godunov) -> Self {
@@ -334,37 +307,21 @@ impl Case for GasProblem {
         let findings = setup.compare(setup.time, &Fields::of_cells(&code))?;
         let work = code.work();
         let energy_drift = eulerian_drift(&code, before);
-        Ok(Eulerian {
-            findings,
-            steps: work.steps,
-            cell_steps: work.cell_steps,
-            energy_drift,
-            cpu,
-        })
+        Ok(Eulerian { findings, steps: work.steps, cell_steps: work.cell_steps, energy_drift, cpu })
     }
 
     fn runs(&self, level: Level) -> Vec<RunKey> {
-        let sizes = if level == Level::Quick {
-            self.sizes.quick
-        } else {
-            self.sizes.standard
-        };
+        let sizes = if level == Level::Quick { self.sizes.quick } else { self.sizes.standard };
         let mut keys = Vec::new();
         for variant in self.variants {
             keys.extend(
-                super::both_presets(self.id, sizes)
-                    .into_iter()
-                    .map(|k| k.variant(variant)),
+                super::both_presets(self.id, sizes).into_iter().map(|k| k.variant(variant)),
             );
             let kernel = super::kernel_default();
             keys.push(RunKey::new(self.id, kernel, self.sizes.drawn).variant(variant));
             let godunov = |&n: &usize| RunKey::new(self.id, Scheme::Godunov, n).variant(variant);
             if self.eulerian {
-                let fine = if level == Level::Full {
-                    self.sizes.fine
-                } else {
-                    &[]
-                };
+                let fine = if level == Level::Full { self.sizes.fine } else { &[] };
                 keys.extend(sizes.iter().chain(fine).map(godunov));
             }
         }
@@ -380,10 +337,7 @@ impl Case for GasProblem {
     }
 
     fn figures(&self, records: &Records) -> Vec<Figure> {
-        self.variants
-            .iter()
-            .filter_map(|v| self.figure(v, records))
-            .collect()
+        self.variants.iter().filter_map(|v| self.figure(v, records)).collect()
     }
 }
 
@@ -391,45 +345,26 @@ impl GasProblem {
     fn figure(&self, variant: &str, records: &Records) -> Option<Figure> {
         let n = self.sizes.drawn;
         let record = |scheme| records.get(&RunKey::new(self.id, scheme, n).variant(variant));
-        let schemes = [
-            Scheme::preset(Preset::Paper),
-            Scheme::preset(Preset::Default),
-        ];
+        let schemes = [Scheme::preset(Preset::Paper), Scheme::preset(Preset::Default)];
         let profile = |scheme| record(scheme).and_then(|r| Some((scheme, r.profile.as_ref()?)));
         let mut drawn: Vec<(Scheme, &Series)> = schemes.into_iter().filter_map(profile).collect();
         drawn.extend(profile(Scheme::Godunov));
         let (_, last) = drawn.last()?;
-        let fields = [
-            ("density", "density"),
-            ("velocity", "velocity"),
-            ("pressure", "pressure"),
-        ];
-        let fields = fields
-            .into_iter()
-            .chain([("energy", "specific internal energy")]);
+        let fields = [("density", "density"), ("velocity", "velocity"), ("pressure", "pressure")];
+        let fields = fields.into_iter().chain([("energy", "specific internal energy")]);
         let panels = fields
             .map(|(name, label)| {
                 let mut panel = Panel::new("", Axis::linear("x"), Axis::linear(label));
-                panel = panel.with(Layer::exact(
-                    "exact",
-                    last.points("x", &format!("{name}_exact")),
-                ));
+                panel =
+                    panel.with(Layer::exact("exact", last.points("x", &format!("{name}_exact"))));
                 for (scheme, profile) in &drawn {
                     panel = panel.with(curve(*scheme, profile.points("x", name)));
                 }
                 panel
             })
             .collect();
-        let id = if variant.is_empty() {
-            self.id.into()
-        } else {
-            format!("{}-{variant}", self.id)
-        };
-        let what = if variant.is_empty() {
-            String::new()
-        } else {
-            format!(" ({variant})")
-        };
+        let id = if variant.is_empty() { self.id.into() } else { format!("{}-{variant}", self.id) };
+        let what = if variant.is_empty() { String::new() } else { format!(" ({variant})") };
         let caption = format!("{}{what}: n = {n}, against the exact solution.", self.title);
         Some(Figure::new(id, caption, panels))
     }

@@ -66,18 +66,11 @@ impl Case for HeatChain {
             units: Units::None,
             stop_time: 1.0,
             method,
-            boundaries: Boundaries {
-                left: Boundary::Mirror(0.0),
-                right: Boundary::Mirror(1.0),
-            },
+            boundaries: Boundaries { left: Boundary::Mirror(0.0), right: Boundary::Mirror(1.0) },
             materials: vec![Material {
                 name: "solid".into(),
                 density: 1.0,
-                eos: EosData::Linear {
-                    bulk: 1.0,
-                    c_v: 1.0,
-                    theta_0: 0.0,
-                },
+                eos: EosData::Linear { bulk: 1.0, c_v: 1.0, theta_0: 0.0 },
             }],
             bodies: vec![Body {
                 material: "solid".into(),
@@ -88,11 +81,7 @@ impl Case for HeatChain {
                 compression: COMPRESSION,
                 interface: Interface::Joined,
                 velocity: Profile::Uniform(0.0),
-                energy: Profile::Cosine {
-                    mean: 1.0,
-                    amplitude: AMPLITUDE,
-                    mode: f64::from(MODE),
-                },
+                energy: Profile::Cosine { mean: 1.0, amplitude: AMPLITUDE, mode: f64::from(MODE) },
             }],
         }
     }
@@ -112,9 +101,7 @@ impl Case for HeatChain {
         let amplitude = s.theta.iter().zip(&shape).map(|(t, s)| t * s).sum::<f64>() / norm;
         let rate = -(amplitude / AMPLITUDE).ln() / s.time;
         let exact = |i: usize| 1.0 + AMPLITUDE * shape[i] * (-mode.discrete_rate() * s.time).exp();
-        let worst = (0..key.n)
-            .map(|i| (s.theta[i] - exact(i)).abs())
-            .fold(0.0, f64::max);
+        let worst = (0..key.n).map(|i| (s.theta[i] - exact(i)).abs()).fold(0.0, f64::max);
         let fastest = s.v.iter().fold(0.0_f64, |top, v| top.max(v.abs()));
 
         let mut findings = Findings::default();
@@ -125,9 +112,7 @@ impl Case for HeatChain {
         let mut series = Series::default();
         series.0.insert("x".into(), s.x.clone());
         series.0.insert("temperature".into(), s.theta.clone());
-        series
-            .0
-            .insert("temperature_exact".into(), (0..key.n).map(exact).collect());
+        series.0.insert("temperature_exact".into(), (0..key.n).map(exact).collect());
         findings.profile = Some(series);
         Ok(findings)
     }
@@ -174,10 +159,7 @@ impl Case for HeatChain {
                 let exact = profile.points("x", "temperature_exact");
                 panel = panel.with(Layer::exact("exact, chain", exact));
             }
-            panel = panel.with(Curve::scatter(
-                preset.name(),
-                profile.points("x", "temperature"),
-            ));
+            panel = panel.with(Curve::scatter(preset.name(), profile.points("x", "temperature")));
         }
         let caption = "Fourth mode of an insulated chain of 32 particles at t = 1.";
         vec![Figure::new(ID, caption, vec![panel])]

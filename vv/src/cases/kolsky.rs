@@ -40,11 +40,7 @@ const FREE: &str = "free";
 const LONG: &str = "20-transits";
 
 fn exact(variant: &str) -> Result<StepLoad, RunError> {
-    let end = if variant == FREE {
-        End::Free
-    } else {
-        End::Fixed
-    };
+    let end = if variant == FREE { End::Free } else { End::Fixed };
     let bar = Bar::new(LENGTH, (BULK / DENSITY).sqrt(), DENSITY, end)?;
     Ok(StepLoad::new(bar, TENSION)?)
 }
@@ -103,33 +99,18 @@ impl Case for Kolsky {
         let mut method = preset.method();
         // Table 3 lists no conduction, and the linear solid does not feel its temperature.
         method.conduction = Conduction::None;
-        let left = if variant == FREE {
-            Boundary::Free
-        } else {
-            Boundary::Fixed
-        };
+        let left = if variant == FREE { Boundary::Free } else { Boundary::Fixed };
         let transit = LENGTH / (BULK / DENSITY).sqrt();
         Scene {
             name: ID.into(),
             units: Units::InLbfS,
-            stop_time: if variant == LONG {
-                TRANSITS * transit
-            } else {
-                STOP
-            },
+            stop_time: if variant == LONG { TRANSITS * transit } else { STOP },
             method,
-            boundaries: Boundaries {
-                left,
-                right: Boundary::Pressure(-TENSION),
-            },
+            boundaries: Boundaries { left, right: Boundary::Pressure(-TENSION) },
             materials: vec![Material {
                 name: "steel".into(),
                 density: DENSITY,
-                eos: EosData::Linear {
-                    bulk: BULK,
-                    c_v: 1.0,
-                    theta_0: 0.0,
-                },
+                eos: EosData::Linear { bulk: BULK, c_v: 1.0, theta_0: 0.0 },
             }],
             bodies: vec![Body {
                 material: "steel".into(),
@@ -162,56 +143,32 @@ impl Case for Kolsky {
         let mut findings = Findings::default();
         let mut enter = |name: &str, value| findings.norms.insert(name.into(), value);
         enter("plateau", mean(&history, PLATEAU));
-        let crest = history
-            .iter()
-            .filter(|(t, _)| (CREST.0..CREST.1).contains(t));
+        let crest = history.iter().filter(|(t, _)| (CREST.0..CREST.1).contains(t));
         // At a free end the foot of the returning front lies in the window.
         if key.variant != FREE {
-            enter(
-                "overshoot",
-                crest.fold(0.0_f64, |top, (_, v)| top.max(v / plateau - 1.0)),
-            );
+            enter("overshoot", crest.fold(0.0_f64, |top, (_, v)| top.max(v / plateau - 1.0)));
         }
-        enter(
-            "velocity_rms",
-            history_rms(&history, &load, scene.stop_time)?,
-        );
+        enter("velocity_rms", history_rms(&history, &load, scene.stop_time)?);
         let late = (0.80e-3, 0.95e-3);
         enter("late_level", mean(&history, late) / plateau);
-        let arrival = history
-            .iter()
-            .find(|(_, v)| *v >= 0.5 * plateau)
-            .map_or(f64::NAN, |p| p.0);
+        let arrival = history.iter().find(|(_, v)| *v >= 0.5 * plateau).map_or(f64::NAN, |p| p.0);
         let spacing = LENGTH / (key.n - 1) as f64;
         let early = 0.5 * load_transit() - arrival;
-        enter(
-            "arrival_spacings",
-            early * (BULK / DENSITY).sqrt() / spacing,
-        );
+        enter("arrival_spacings", early * (BULK / DENSITY).sqrt() / spacing);
 
         let s = driver.solver().snapshot();
         let x: Vec<f64> = s.x.iter().map(|x| x / spacing).collect();
         enter("roughness", norms::roughness(&x)?);
         let strain = driver.solver().strain_energy();
         let integrated = driver.solver().ledger().strain;
-        enter(
-            "strain_residual",
-            ((integrated - strain) / strain.max(f64::MIN_POSITIVE)).abs(),
-        );
+        enter("strain_residual", ((integrated - strain) / strain.max(f64::MIN_POSITIVE)).abs());
         findings.norms.retain(|_, value| value.is_finite());
 
-        let exact = history
-            .iter()
-            .map(|&(t, _)| Ok(load.sample(0.5 * LENGTH, t)?.velocity));
+        let exact = history.iter().map(|&(t, _)| Ok(load.sample(0.5 * LENGTH, t)?.velocity));
         let exact = exact.collect::<Result<Vec<f64>, RunError>>()?;
         let mut series = Series::default();
-        series.0.insert(
-            "time_ms".into(),
-            history.iter().map(|p| 1e3 * p.0).collect(),
-        );
-        series
-            .0
-            .insert("velocity".into(), history.iter().map(|p| p.1).collect());
+        series.0.insert("time_ms".into(), history.iter().map(|p| 1e3 * p.0).collect());
+        series.0.insert("velocity".into(), history.iter().map(|p| p.1).collect());
         series.0.insert("velocity_exact".into(), exact);
         findings.history = Some(series);
         Ok(findings)
@@ -222,18 +179,10 @@ impl Case for Kolsky {
     }
 
     fn runs(&self, level: Level) -> Vec<RunKey> {
-        let sizes = if level == Level::Quick {
-            &SIZES[..2]
-        } else {
-            SIZES
-        };
+        let sizes = if level == Level::Quick { &SIZES[..2] } else { SIZES };
         let mut keys = both_presets(ID, sizes);
         for variant in [FREE, LONG] {
-            keys.extend(
-                both_presets(ID, &DRAWN)
-                    .into_iter()
-                    .map(|k| k.variant(variant)),
-            );
+            keys.extend(both_presets(ID, &DRAWN).into_iter().map(|k| k.variant(variant)));
         }
         keys.extend(DRAWN.map(|n| RunKey::new(ID, super::kernel_default(), n)));
         keys
@@ -244,16 +193,8 @@ impl Case for Kolsky {
             RunKey::new(ID, Scheme::preset(Preset::Default), DRAWN[1]).variant(variant)
         };
         let norm = |variant: &str, name| Quantity::Norm(default(variant), name);
-        let issue = Claims::new(
-            ID,
-            Kind::Verification,
-            Weight::Must,
-            "issue; exact solution",
-        );
-        let aim = Claims {
-            weight: Weight::Aim,
-            ..issue
-        };
+        let issue = Claims::new(ID, Kind::Verification, Weight::Must, "issue; exact solution");
+        let aim = Claims { weight: Weight::Aim, ..issue };
         let speed = exact(FIXED).map_or(f64::NAN, |load| load.front_velocity());
         let mut out = vec![
             issue.claim(
@@ -316,10 +257,7 @@ impl Case for Kolsky {
     }
 
     fn quantities(&self) -> &'static [(&'static str, &'static str)] {
-        &[
-            ("plateau", "plateau velocity, in/s"),
-            ("overshoot", "overshoot"),
-        ]
+        &[("plateau", "plateau velocity, in/s"), ("overshoot", "overshoot")]
     }
 
     fn figures(&self, records: &Records) -> Vec<Figure> {
@@ -344,10 +282,8 @@ fn histories(records: &Records, variant: &str) -> Option<Figure> {
         .zip(["Figure 5", "Figure 6"])
         .filter_map(|(&n, number)| {
             let title = format!("{number}: {n} particles");
-            let (time, velocity) = (
-                Axis::linear("time, ms"),
-                Axis::linear("midpoint velocity, in/s"),
-            );
+            let (time, velocity) =
+                (Axis::linear("time, ms"), Axis::linear("midpoint velocity, in/s"));
             let mut panel = Panel::new(title, time, velocity);
             let mut seen = false;
             for preset in Preset::ALL {
@@ -369,11 +305,7 @@ fn histories(records: &Records, variant: &str) -> Option<Figure> {
     if panels.is_empty() {
         return None;
     }
-    let (id, end) = if variant == FREE {
-        ("free", "free")
-    } else {
-        ("fixed", "fixed")
-    };
+    let (id, end) = if variant == FREE { ("free", "free") } else { ("fixed", "fixed") };
     let caption = format!(
         "Velocity of the midpoint of the bar, end x = 0 {end}: Figures 5 and 6 of the paper, with \
          both presets and the exact solution."
@@ -384,10 +316,8 @@ fn histories(records: &Records, variant: &str) -> Option<Figure> {
 fn speed_against_error(records: &Records) -> Figure {
     let y = || Axis::log("rms error of midpoint velocity / plateau");
     type Cost = (&'static str, fn(&RunRecord) -> f64);
-    let axes: [Cost; 2] = [
-        ("spacing, in", |r| LENGTH / (r.key.n - 1) as f64),
-        ("CPU seconds", |r| r.cpu_seconds),
-    ];
+    let axes: [Cost; 2] =
+        [("spacing, in", |r| LENGTH / (r.key.n - 1) as f64), ("CPU seconds", |r| r.cpu_seconds)];
     let panels = axes
         .map(|(label, of)| {
             let mut panel = Panel::new("", Axis::log(label), y());

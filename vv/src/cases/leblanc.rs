@@ -9,12 +9,7 @@ use crate::run::RunError;
 use whipple_solver::method::Preset;
 
 const ID: &str = "leblanc";
-const LEFT: Gas = Gas {
-    density: 1.0,
-    velocity: 0.0,
-    pressure: 0.2 / 3.0,
-    gamma: 5.0 / 3.0,
-};
+const LEFT: Gas = Gas { density: 1.0, velocity: 0.0, pressure: 0.2 / 3.0, gamma: 5.0 / 3.0 };
 const COLD: f64 = 2e-10 / 3.0;
 const SIZES: &[usize] = &[100, 200, 400];
 
@@ -27,28 +22,15 @@ pub(super) const CASE: GasProblem = GasProblem {
             put the shock in the wrong place at moderate resolution.",
     source: "ExactPack (density ratio 100) and the usual statement (1000); exact Riemann solution",
     variants: &["", "standard"],
-    sizes: Sizes {
-        quick: &[200],
-        standard: SIZES,
-        drawn: 200,
-        fine: &[],
-    },
+    sizes: Sizes { quick: &[200], standard: SIZES, drawn: 200, fine: &[] },
     setup,
     claims,
     eulerian: true,
 };
 
 fn setup(variant: &str) -> Result<Setup, RunError> {
-    let (density, membrane) = if variant == "standard" {
-        (1e-3, 1.0 / 3.0)
-    } else {
-        (0.01, 0.3)
-    };
-    let right = Gas {
-        density,
-        pressure: COLD,
-        ..LEFT
-    };
+    let (density, membrane) = if variant == "standard" { (1e-3, 1.0 / 3.0) } else { (0.01, 0.3) };
+    let right = Gas { density, pressure: COLD, ..LEFT };
     let riemann = Riemann::new(LEFT, right)?;
     Ok(Setup {
         regions: two_regions((0.0, LEFT), membrane, (1.0, right)),
@@ -65,11 +47,7 @@ fn claims() -> Vec<Claim> {
     let mut out = Vec::new();
     for variant in CASE.variants {
         let key = |&n: &usize| RunKey::new(ID, Scheme::preset(Preset::Default), n).variant(variant);
-        let form = if variant.is_empty() {
-            "ExactPack's form"
-        } else {
-            "usual form"
-        };
+        let form = if variant.is_empty() { "ExactPack's form" } else { "usual form" };
         out.push(must.claim(
             format!("order of L1 ρ, {form}, `default`"),
             Quantity::Order(SIZES.iter().map(key).collect(), "density_l1"),

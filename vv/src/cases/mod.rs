@@ -97,10 +97,7 @@ pub trait Case: Sync {
     /// # Errors
     /// Where there is none, or it fails.
     fn eulerian(&self, _variant: &str, _n: usize) -> Result<Eulerian, RunError> {
-        Err(RunError::NotThere {
-            case: self.id().into(),
-            what: "the Godunov code".into(),
-        })
+        Err(RunError::NotThere { case: self.id().into(), what: "the Godunov code".into() })
     }
 
     /// Whether a figure shows the fields or histories of a run: records of others leave them out.
@@ -177,40 +174,16 @@ struct Claims {
 
 impl Claims {
     const fn new(case: &'static str, kind: Kind, weight: Weight, source: &'static str) -> Self {
-        Self {
-            case,
-            kind,
-            weight,
-            source,
-            in_sample: false,
-        }
+        Self { case, kind, weight, source, in_sample: false }
     }
 
     const fn in_sample(self) -> Self {
-        Self {
-            in_sample: true,
-            ..self
-        }
+        Self { in_sample: true, ..self }
     }
 
     fn claim(self, what: impl Into<String>, quantity: Quantity, wanted: Wanted) -> Claim {
-        let Self {
-            case,
-            kind,
-            weight,
-            source,
-            in_sample,
-        } = self;
-        Claim {
-            case,
-            kind,
-            weight,
-            what: what.into(),
-            quantity,
-            wanted,
-            source,
-            in_sample,
-        }
+        let Self { case, kind, weight, source, in_sample } = self;
+        Claim { case, kind, weight, what: what.into(), quantity, wanted, source, in_sample }
     }
 }
 
@@ -222,10 +195,7 @@ fn conservation(case: &'static str, key: &RunKey) -> Vec<Claim> {
         Weight::Must,
         "round-off of sums over a run; the compatible integrator conserves total energy exactly",
     );
-    let momentum = Claims {
-        source: "round-off; pair forces are opposite and equal",
-        ..energy
-    };
+    let momentum = Claims { source: "round-off; pair forces are opposite and equal", ..energy };
     vec![
         energy.claim(
             "energy drift over the run",
@@ -242,8 +212,5 @@ fn conservation(case: &'static str, key: &RunKey) -> Vec<Claim> {
 
 /// The default preset with the kernel density.
 fn kernel_default() -> Scheme {
-    Scheme::Particles {
-        preset: Preset::Default,
-        density: whipple_solver::method::Density::Kernel,
-    }
+    Scheme::Particles { preset: Preset::Default, density: whipple_solver::method::Density::Kernel }
 }

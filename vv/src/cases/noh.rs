@@ -78,12 +78,8 @@ const VARIANTS: &[&str] = &[
 ];
 
 /// Supports of the kernel beside its own, by variant.
-const SUPPORTS: [(&str, f64); 4] = [
-    ("support-1.5", 1.5),
-    ("support-1.75", 1.75),
-    ("support-2.25", 2.25),
-    ("support-2.5", 2.5),
-];
+const SUPPORTS: [(&str, f64); 4] =
+    [("support-1.5", 1.5), ("support-1.75", 1.75), ("support-2.25", 2.25), ("support-2.5", 2.5)];
 
 /// A method with one choice changed.
 fn varied(method: Method, variant: &str) -> Method {
@@ -114,12 +110,7 @@ fn varied(method: Method, variant: &str) -> Method {
 /// The variants that change something in a preset.
 fn variants_of(preset: Preset) -> &'static [&'static str] {
     match preset {
-        Preset::Paper => &[
-            "half-step",
-            "heating-pair",
-            "conduction-none",
-            "reference-sound",
-        ],
+        Preset::Paper => &["half-step", "heating-pair", "conduction-none", "reference-sound"],
         Preset::Default => &[
             "half-step",
             "heating-printed",
@@ -140,17 +131,10 @@ struct Errors {
 impl Errors {
     fn new(x: &[f64], v: &[f64], theta: &[f64], exact: impl Fn(f64) -> Gas) -> Self {
         let minus = |found: &[f64], of: fn(&Gas) -> f64| {
-            found
-                .iter()
-                .zip(x)
-                .map(|(f, &x)| f - of(&exact(x)))
-                .collect()
+            found.iter().zip(x).map(|(f, &x)| f - of(&exact(x))).collect()
         };
         // c_v = 1: temperature above that of the cold gas is the exact energy.
-        Self {
-            velocity: minus(v, |g| g.velocity),
-            temperature: minus(theta, Gas::energy),
-        }
+        Self { velocity: minus(v, |g| g.velocity), temperature: minus(theta, Gas::energy) }
     }
 }
 
@@ -171,10 +155,8 @@ impl Phases {
         self.temperature.push(norms::rms(&errors.temperature)?);
         self.velocity_l1.push(Norm::L1.of(&errors.velocity)?);
         self.temperature_l1.push(Norm::L1.of(&errors.temperature)?);
-        self.velocity_window
-            .push(norms::window_l1(x, &errors.velocity, lengths, WINDOW)?);
-        self.temperature_window
-            .push(norms::window_l1(x, &errors.temperature, lengths, WINDOW)?);
+        self.velocity_window.push(norms::window_l1(x, &errors.velocity, lengths, WINDOW)?);
+        self.temperature_window.push(norms::window_l1(x, &errors.temperature, lengths, WINDOW)?);
         Ok(())
     }
 
@@ -188,9 +170,7 @@ impl Phases {
             ("temperature_l1_window", Norm::L1, &self.temperature_window),
         ];
         for (name, norm, values) in averages {
-            findings
-                .norms
-                .insert(name.into(), norm.phase_average(values)?);
+            findings.norms.insert(name.into(), norm.phase_average(values)?);
         }
         Ok(())
     }
@@ -202,22 +182,13 @@ fn exact() -> Result<Exact, RunError> {
 
 /// Exact state at `x`; positions behind the wall do not occur.
 fn state(exact: &Exact, x: f64, t: f64) -> Gas {
-    if x < exact.shock_position(t) {
-        exact.behind()
-    } else {
-        exact.ahead()
-    }
+    if x < exact.shock_position(t) { exact.behind() } else { exact.ahead() }
 }
 
 /// Mean density of the shocked gas, away from wall and front.
 fn plateau_density(x: &[f64], density: &[f64]) -> f64 {
-    let inside = x
-        .iter()
-        .zip(density)
-        .filter(|(x, _)| PLATEAU.0 < **x && **x < PLATEAU.1);
-    let (sum, count) = inside.fold((0.0, 0.0), |(sum, count), (_, rho)| {
-        (sum + rho, count + 1.0)
-    });
+    let inside = x.iter().zip(density).filter(|(x, _)| PLATEAU.0 < **x && **x < PLATEAU.1);
+    let (sum, count) = inside.fold((0.0, 0.0), |(sum, count), (_, rho)| (sum + rho, count + 1.0));
     sum / count
 }
 
@@ -228,10 +199,7 @@ fn at_stop(errors: &Errors, mass: &[f64]) -> Result<Findings, RunError> {
     enter("velocity_rms", norms::rms(&errors.velocity)?);
     enter("temperature_rms", norms::rms(&errors.temperature)?);
     enter("velocity_l1", norms::l1_weighted(&errors.velocity, mass)?);
-    enter(
-        "temperature_l1",
-        norms::l1_weighted(&errors.temperature, mass)?,
-    );
+    enter("temperature_l1", norms::l1_weighted(&errors.temperature, mass)?);
     enter("wall_heating", errors.temperature[0] / 0.5);
     Ok(findings)
 }
@@ -239,12 +207,8 @@ fn at_stop(errors: &Errors, mass: &[f64]) -> Result<Findings, RunError> {
 /// Fields beside the exact ones, as in the paper's Figures 1 to 4.
 fn profile(columns: [(&str, Vec<f64>); 4], x: Vec<f64>, exact: &Exact) -> Series {
     let mut profile = Series::default();
-    let of: [fn(&Gas) -> f64; 4] = [
-        |g| g.velocity,
-        |g| g.density,
-        |g| g.pressure,
-        |g| THETA_0 + g.energy(),
-    ];
+    let of: [fn(&Gas) -> f64; 4] =
+        [|g| g.velocity, |g| g.density, |g| g.pressure, |g| THETA_0 + g.energy()];
     for ((name, values), of) in columns.into_iter().zip(of) {
         let wanted = x.iter().map(|&x| of(&state(exact, x, STOP))).collect();
         profile.0.insert(format!("{name}_exact"), wanted);
@@ -285,26 +249,15 @@ impl Case for Noh {
     }
 
     fn scene(&self, preset: Preset, variant: &str, n: usize) -> Scene {
-        let eos = EosData::IdealGas {
-            adiabatic_index: GAMMA,
-            c_v: 1.0,
-            u_0: U_0,
-            theta_0: THETA_0,
-        };
+        let eos =
+            EosData::IdealGas { adiabatic_index: GAMMA, c_v: 1.0, u_0: U_0, theta_0: THETA_0 };
         Scene {
             name: ID.into(),
             units: Units::None,
             stop_time: STOP,
             method: varied(preset.method(), variant),
-            boundaries: Boundaries {
-                left: Boundary::Mirror(0.0),
-                right: Boundary::Free,
-            },
-            materials: vec![Material {
-                name: "gas".into(),
-                density: 1.0,
-                eos,
-            }],
+            boundaries: Boundaries { left: Boundary::Mirror(0.0), right: Boundary::Free },
+            materials: vec![Material { name: "gas".into(), density: 1.0, eos }],
             bodies: vec![Body {
                 material: "gas".into(),
                 from: 0.0,
@@ -335,9 +288,7 @@ impl Case for Noh {
 
         let s = driver.solver().snapshot();
         let mut findings = at_stop(&errors(&s), &s.m)?;
-        findings
-            .norms
-            .insert("plateau_density".into(), plateau_density(&s.x, &s.rho));
+        findings.norms.insert("plateau_density".into(), plateau_density(&s.x, &s.rho));
         let mut phases = Phases::default();
         phases.add(&s.x, &s.lengths(), &errors(&s))?;
         // The shock passes particles at 1/3 + 1 times their initial spacing.
@@ -360,10 +311,7 @@ impl Case for Noh {
 
     fn eulerian(&self, _: &str, n: usize) -> Result<Eulerian, RunError> {
         let exact = exact()?;
-        let far = Gas {
-            pressure: super::gas::COLD_PRESSURE,
-            ..exact.ahead()
-        };
+        let far = Gas { pressure: super::gas::COLD_PRESSURE, ..exact.ahead() };
         let domain = Domain {
             start: 0.0,
             end: LENGTH,
@@ -395,10 +343,7 @@ impl Case for Noh {
             ("velocity", column(&code, |g| g.velocity)),
             ("density", column(&code, |g| g.density)),
             ("pressure", column(&code, |g| g.pressure)),
-            (
-                "temperature",
-                code.cells().map(|g| THETA_0 + g.energy()).collect(),
-            ),
+            ("temperature", code.cells().map(|g| THETA_0 + g.energy()).collect()),
         ];
         findings.profile = Some(profile(columns, x.clone(), &exact));
         let mut phases = Phases::default();
@@ -411,13 +356,7 @@ impl Case for Noh {
             phases.add(&x, &width, &errors(&code, time))?;
         }
         phases.enter(&mut findings)?;
-        Ok(Eulerian {
-            findings,
-            steps: work.steps,
-            cell_steps: work.cell_steps,
-            energy_drift,
-            cpu,
-        })
+        Ok(Eulerian { findings, steps: work.steps, cell_steps: work.cell_steps, energy_drift, cpu })
     }
 
     fn draws(&self, key: &RunKey) -> bool {
@@ -425,11 +364,7 @@ impl Case for Noh {
     }
 
     fn runs(&self, level: Level) -> Vec<RunKey> {
-        let sizes = if level == Level::Quick {
-            &SIZES[..2]
-        } else {
-            SIZES
-        };
+        let sizes = if level == Level::Quick { &SIZES[..2] } else { SIZES };
         let mut keys = both_presets(ID, sizes);
         for scheme in [kernel_default(), Scheme::Godunov] {
             keys.extend(sizes.iter().map(|&n| RunKey::new(ID, scheme, n)));
@@ -451,12 +386,8 @@ impl Case for Noh {
         for n in [100, 800] {
             out.extend(conservation(ID, &default(n)));
         }
-        let cost = Claims::new(
-            ID,
-            Kind::Cost,
-            Weight::Must,
-            "issue: one core, CPU time of stepping",
-        );
+        let cost =
+            Claims::new(ID, Kind::Cost, Weight::Must, "issue: one core, CPU time of stepping");
         out.push(cost.claim(
             "particle-steps per CPU second, n = 800, `default`",
             Quantity::Speed(default(800)),
@@ -504,21 +435,17 @@ impl Case for Noh {
 /// The eight norms of Table 2, against the paper and against the study.
 fn table_2() -> Vec<Claim> {
     let paper = Claims::new(ID, Kind::Replication, Weight::Must, "paper, Table 2").in_sample();
-    let study = Claims {
-        source: "1D study: reading A converged in the time step, within 0.5 %",
-        ..paper
-    };
+    let study =
+        Claims { source: "1D study: reading A converged in the time step, within 0.5 %", ..paper };
     let mut out = Vec::new();
-    for (claims, rows, share, whose) in [
-        (paper, TABLE_2, 0.02, "Table 2"),
-        (study, STUDY, 0.005, "study"),
-    ] {
+    for (claims, rows, share, whose) in
+        [(paper, TABLE_2, 0.02, "Table 2"), (study, STUDY, 0.005, "study")]
+    {
         for (n, velocity, temperature) in rows {
             let key = RunKey::new(ID, Scheme::preset(Preset::Paper), n);
-            for (name, symbol, value) in [
-                ("velocity_rms", "v", velocity),
-                ("temperature_rms", "θ", temperature),
-            ] {
+            for (name, symbol, value) in
+                [("velocity_rms", "v", velocity), ("temperature_rms", "θ", temperature)]
+            {
                 out.push(claims.claim(
                     format!("rms {symbol}, n = {n}, `paper`, {whose}"),
                     Quantity::Norm(key.clone(), name),
@@ -534,11 +461,7 @@ fn table_2() -> Vec<Claim> {
 fn accuracy() -> Vec<Claim> {
     let source = "issue: the prototype reached 0.19, 0.102, 4.7 % and 0.011";
     let must = Claims::new(ID, Kind::Verification, Weight::Must, source).in_sample();
-    let aim = Claims {
-        weight: Weight::Aim,
-        source: "issue: goal beyond the prototype",
-        ..must
-    };
+    let aim = Claims { weight: Weight::Aim, source: "issue: goal beyond the prototype", ..must };
     let mut out = Vec::new();
     for n in [100, 400] {
         let key = RunKey::new(ID, Scheme::preset(Preset::Default), n);
@@ -561,10 +484,7 @@ fn accuracy() -> Vec<Claim> {
     let window = Quantity::Norm(key, "velocity_l1_window");
     let what = "window L1 of v, mean over phases, n = 100, `default`";
     out.push(must.claim(what, window.clone(), Wanted::AtMost(0.012)));
-    let stored = Claims {
-        source: "best value stored by another code, for one phase",
-        ..aim
-    };
+    let stored = Claims { source: "best value stored by another code, for one phase", ..aim };
     out.push(stored.claim(what, window, Wanted::AtMost(0.0077)));
     out
 }
@@ -608,9 +528,7 @@ fn table_2_beside(records: &Records) -> Table {
     }
     let row = |&(n, velocity, temperature): &(usize, f64, f64)| {
         let norm = |scheme, name: &str| {
-            records
-                .get(&RunKey::new(ID, scheme, n))
-                .and_then(|r| r.norms.get(name).copied())
+            records.get(&RunKey::new(ID, scheme, n)).and_then(|r| r.norms.get(name).copied())
         };
         let number = |value: Option<f64>, digits| {
             value.map_or_else(|| "–".into(), |value| Cell::number(value, digits))
@@ -707,12 +625,7 @@ fn step(exact: &Exact, field: &str) -> Vec<(f64, f64)> {
     };
     let (behind, ahead) = (of(exact.behind()), of(exact.ahead()));
     let shock = exact.shock_position(STOP);
-    vec![
-        (0.0, behind),
-        (shock, behind),
-        (shock, ahead),
-        (LENGTH - STOP, ahead),
-    ]
+    vec![(0.0, behind), (shock, behind), (shock, ahead), (LENGTH - STOP, ahead)]
 }
 
 /// Figures 1 to 4 of the paper.
@@ -720,12 +633,7 @@ fn profiles(records: &Records) -> Option<Figure> {
     let drawn: Vec<(Scheme, &Series)> = schemes()
         .into_iter()
         .filter(|s| *s != kernel_default())
-        .filter_map(|s| {
-            Some((
-                s,
-                records.get(&RunKey::new(ID, s, DRAWN))?.profile.as_ref()?,
-            ))
-        })
+        .filter_map(|s| Some((s, records.get(&RunKey::new(ID, s, DRAWN))?.profile.as_ref()?)))
         .collect();
     let exact = exact().ok()?;
     let fields = [

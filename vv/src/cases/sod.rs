@@ -10,18 +10,8 @@ use whipple_solver::method::Preset;
 
 const ID: &str = "sod";
 const MEMBRANE: f64 = 0.5;
-const LEFT: Gas = Gas {
-    density: 1.0,
-    velocity: 0.0,
-    pressure: 1.0,
-    gamma: 1.4,
-};
-const RIGHT: Gas = Gas {
-    density: 0.125,
-    velocity: 0.0,
-    pressure: 0.1,
-    gamma: 1.4,
-};
+const LEFT: Gas = Gas { density: 1.0, velocity: 0.0, pressure: 1.0, gamma: 1.4 };
+const RIGHT: Gas = Gas { density: 0.125, velocity: 0.0, pressure: 0.1, gamma: 1.4 };
 const SIZES: &[usize] = &[100, 200, 400, 800];
 
 /// The case.
@@ -33,12 +23,7 @@ pub(super) const CASE: GasProblem = GasProblem {
             masses jump by 8 at the contact, and with equal masses.",
     source: "Sod, J. Comput. Phys. 27 (1978) 1; states as in ExactPack; exact Riemann solution",
     variants: &["", "equal-mass"],
-    sizes: Sizes {
-        quick: &[100, 200],
-        standard: SIZES,
-        drawn: 200,
-        fine: &[],
-    },
+    sizes: Sizes { quick: &[100, 200], standard: SIZES, drawn: 200, fine: &[] },
     setup,
     claims,
     eulerian: true,
@@ -48,10 +33,7 @@ fn setup(variant: &str) -> Result<Setup, RunError> {
     let riemann = Riemann::new(LEFT, RIGHT)?;
     let mut regions: Vec<Region> = two_regions((0.0, LEFT), MEMBRANE, (1.0, RIGHT));
     if variant == "equal-mass" {
-        let mass: f64 = regions
-            .iter()
-            .map(|r| r.gas.density * (r.span.1 - r.span.0))
-            .sum();
+        let mass: f64 = regions.iter().map(|r| r.gas.density * (r.span.1 - r.span.0)).sum();
         for region in &mut regions {
             region.share = region.gas.density * (region.span.1 - region.span.0) / mass;
         }
@@ -71,10 +53,7 @@ fn claims() -> Vec<Claim> {
     let verified = Claims::new(ID, Kind::Verification, Weight::Must, first);
     let mut out = Vec::new();
     for preset in Preset::ALL {
-        let keys = SIZES
-            .iter()
-            .map(|&n| RunKey::new(ID, Scheme::preset(preset), n))
-            .collect();
+        let keys = SIZES.iter().map(|&n| RunKey::new(ID, Scheme::preset(preset), n)).collect();
         out.push(verified.claim(
             format!("order of L1 ρ, `{}`", preset.name()),
             Quantity::Order(keys, "density_l1"),
@@ -83,12 +62,7 @@ fn claims() -> Vec<Claim> {
     }
     let at = |variant: &str| RunKey::new(ID, Scheme::preset(Preset::Default), 200).variant(variant);
     let study = Claims::new(ID, Kind::Verification, Weight::Aim, study).in_sample();
-    let l1 = |variant, bound| {
-        (
-            Quantity::Norm(at(variant), "density_l1"),
-            Wanted::AtMost(bound),
-        )
-    };
+    let l1 = |variant, bound| (Quantity::Norm(at(variant), "density_l1"), Wanted::AtMost(bound));
     let (quantity, wanted) = l1("", 0.0033);
     out.push(study.claim("L1 ρ, equal spacing, n = 200, `default`", quantity, wanted));
     let (quantity, wanted) = l1("equal-mass", 0.0044);

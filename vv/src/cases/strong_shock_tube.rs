@@ -10,16 +10,8 @@ use whipple_solver::method::Preset;
 
 const ID: &str = "strong-shock-tube";
 const MEMBRANE: f64 = 0.5;
-const LEFT: Gas = Gas {
-    density: 1.0,
-    velocity: 0.0,
-    pressure: 1000.0,
-    gamma: 1.4,
-};
-const RIGHT: Gas = Gas {
-    pressure: 0.01,
-    ..LEFT
-};
+const LEFT: Gas = Gas { density: 1.0, velocity: 0.0, pressure: 1000.0, gamma: 1.4 };
+const RIGHT: Gas = Gas { pressure: 0.01, ..LEFT };
 const SIZES: &[usize] = &[100, 200, 400];
 
 /// The case.
@@ -30,12 +22,7 @@ pub(super) const CASE: GasProblem = GasProblem {
             blast wave, and Toro's third test. The density behind the shock is six times that ahead.",
     source: "Toro, Riemann Solvers, test 3 (states recalled, also in the Castro manual); exact Riemann solution",
     variants: &[""],
-    sizes: Sizes {
-        quick: &[200],
-        standard: SIZES,
-        drawn: 200,
-        fine: &[],
-    },
+    sizes: Sizes { quick: &[200], standard: SIZES, drawn: 200, fine: &[] },
     setup,
     claims,
     eulerian: true,
@@ -58,18 +45,11 @@ fn claims() -> Vec<Claim> {
     let at = |preset| RunKey::new(ID, Scheme::preset(preset), 200);
     let default = at(Preset::Default);
     let l1 = |key: RunKey| Quantity::Norm(key, "density_l1");
-    let mut out = vec![must.claim(
-        "L1 ρ, n = 200, `default`",
-        l1(default.clone()),
-        Wanted::AtMost(0.010),
-    )];
+    let mut out =
+        vec![must.claim("L1 ρ, n = 200, `default`", l1(default.clone()), Wanted::AtMost(0.010))];
     let limit = "printed heating (60) cools particles behind a fast contact below absolute zero";
     let shown = Claims::new(ID, Kind::Stability, Weight::Shown, limit);
-    out.push(shown.claim(
-        "L1 ρ, n = 200, `paper`",
-        l1(at(Preset::Paper)),
-        Wanted::AtMost(0.025),
-    ));
+    out.push(shown.claim("L1 ρ, n = 200, `paper`", l1(at(Preset::Paper)), Wanted::AtMost(0.025)));
     out.extend(conservation(ID, &default));
     out
 }

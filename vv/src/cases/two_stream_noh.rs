@@ -10,12 +10,7 @@ use whipple_solver::method::Preset;
 use whipple_solver::scene::{Boundaries, Boundary};
 
 const ID: &str = "two-stream-noh";
-const GAS: Gas = Gas {
-    density: 1.0,
-    velocity: 1.0,
-    pressure: COLD_PRESSURE,
-    gamma: 5.0 / 3.0,
-};
+const GAS: Gas = Gas { density: 1.0, velocity: 1.0, pressure: COLD_PRESSURE, gamma: 5.0 / 3.0 };
 const SIZES: &[usize] = &[100, 200, 400];
 
 /// The case.
@@ -27,12 +22,7 @@ pub(super) const CASE: GasProblem = GasProblem {
             boost test.",
     source: "Noh, J. Comput. Phys. 72 (1987) 78; exact solution",
     variants: &[""],
-    sizes: Sizes {
-        quick: &[200],
-        standard: SIZES,
-        drawn: 200,
-        fine: &[],
-    },
+    sizes: Sizes { quick: &[200], standard: SIZES, drawn: 200, fine: &[] },
     setup,
     claims,
     eulerian: true,
@@ -44,18 +34,12 @@ fn setup(_: &str) -> Result<Setup, RunError> {
 
 /// The problem in a frame in which everything moves at `boost`.
 pub(super) fn streams(boost: f64) -> Result<Setup, RunError> {
-    let moving = |v| Gas {
-        velocity: v + boost,
-        ..GAS
-    };
+    let moving = |v| Gas { velocity: v + boost, ..GAS };
     let (left, right) = (moving(1.0), moving(-1.0));
     let riemann = Riemann::new(left, right)?;
     Ok(Setup {
         regions: two_regions((-0.5, left), 0.0, (0.5, right)),
-        ends: Boundaries {
-            left: Boundary::Free,
-            right: Boundary::Free,
-        },
+        ends: Boundaries { left: Boundary::Free, right: Boundary::Free },
         u_0: 1.0,
         time: 0.3,
         exact: Box::new(move |x, t| Ok(riemann.sample(x / t).gas)),
@@ -71,15 +55,8 @@ fn claims() -> Vec<Claim> {
         Quantity::Norm(key.clone(), "density_l1"),
         Wanted::AtMost(0.0080),
     )];
-    let keys = SIZES
-        .iter()
-        .map(|&n| RunKey::new(ID, Scheme::preset(Preset::Default), n))
-        .collect();
-    let order = Claims {
-        source: "first order in L1",
-        weight: Weight::Must,
-        ..aim
-    };
+    let keys = SIZES.iter().map(|&n| RunKey::new(ID, Scheme::preset(Preset::Default), n)).collect();
+    let order = Claims { source: "first order in L1", weight: Weight::Must, ..aim };
     out.push(order.claim(
         "order of L1 ρ, `default`",
         Quantity::Order(keys, "density_l1"),

@@ -10,17 +10,8 @@ use whipple_solver::method::Preset;
 use whipple_solver::scene::{Boundaries, Boundary};
 
 const ID: &str = "unequal-masses";
-const LIGHT: Gas = Gas {
-    density: 1.0,
-    velocity: 1.0,
-    pressure: COLD_PRESSURE,
-    gamma: 5.0 / 3.0,
-};
-const HEAVY: Gas = Gas {
-    density: 8.0,
-    velocity: -1.0,
-    ..LIGHT
-};
+const LIGHT: Gas = Gas { density: 1.0, velocity: 1.0, pressure: COLD_PRESSURE, gamma: 5.0 / 3.0 };
+const HEAVY: Gas = Gas { density: 8.0, velocity: -1.0, ..LIGHT };
 const SIZES: &[usize] = &[100, 200, 400];
 
 /// The case.
@@ -31,12 +22,7 @@ pub(super) const CASE: GasProblem = GasProblem {
             that masses jump by 8 at the contact. Two strong shocks part from it.",
     source: "exact Riemann solution; the ratio is the 1D study's",
     variants: &[""],
-    sizes: Sizes {
-        quick: &[200],
-        standard: SIZES,
-        drawn: 200,
-        fine: &[],
-    },
+    sizes: Sizes { quick: &[200], standard: SIZES, drawn: 200, fine: &[] },
     setup,
     claims,
     eulerian: true,
@@ -46,10 +32,7 @@ fn setup(_: &str) -> Result<Setup, RunError> {
     let riemann = Riemann::new(LIGHT, HEAVY)?;
     Ok(Setup {
         regions: two_regions((-0.5, LIGHT), 0.0, (0.5, HEAVY)),
-        ends: Boundaries {
-            left: Boundary::Free,
-            right: Boundary::Free,
-        },
+        ends: Boundaries { left: Boundary::Free, right: Boundary::Free },
         u_0: 1.0,
         time: 0.2,
         exact: Box::new(move |x, t| Ok(riemann.sample(x / t).gas)),
@@ -65,15 +48,8 @@ fn claims() -> Vec<Claim> {
         Quantity::Norm(key.clone(), "density_l1"),
         Wanted::AtMost(0.0158),
     )];
-    let keys = SIZES
-        .iter()
-        .map(|&n| RunKey::new(ID, Scheme::preset(Preset::Default), n))
-        .collect();
-    let order = Claims {
-        source: "first order in L1",
-        weight: Weight::Must,
-        ..aim
-    };
+    let keys = SIZES.iter().map(|&n| RunKey::new(ID, Scheme::preset(Preset::Default), n)).collect();
+    let order = Claims { source: "first order in L1", weight: Weight::Must, ..aim };
     out.push(order.claim(
         "order of L1 ρ, `default`",
         Quantity::Order(keys, "density_l1"),

@@ -11,12 +11,7 @@ use whipple_solver::method::Preset;
 use whipple_solver::scene::{Boundaries, Boundary};
 
 const ID: &str = "uniform-collapse";
-const GAS: Gas = Gas {
-    density: 1.0,
-    velocity: 0.0,
-    pressure: COLD_PRESSURE,
-    gamma: 5.0 / 3.0,
-};
+const GAS: Gas = Gas { density: 1.0, velocity: 0.0, pressure: COLD_PRESSURE, gamma: 5.0 / 3.0 };
 const SIZES: &[usize] = &[100, 200, 400];
 
 /// The case.
@@ -27,12 +22,7 @@ pub(super) const CASE: GasProblem = GasProblem {
             forms. Tests the density rule and the viscosity's sense of a uniform compression alone.",
     source: "Noh, J. Comput. Phys. 72 (1987) 92; ExactPack noh2",
     variants: &[""],
-    sizes: Sizes {
-        quick: &[200],
-        standard: SIZES,
-        drawn: 200,
-        fine: &[],
-    },
+    sizes: Sizes { quick: &[200], standard: SIZES, drawn: 200, fine: &[] },
     setup,
     claims,
     eulerian: false,
@@ -41,16 +31,8 @@ pub(super) const CASE: GasProblem = GasProblem {
 fn setup(_: &str) -> Result<Setup, RunError> {
     let exact = UniformCollapse::new(Geometry::Planar, GAS, 1.0)?;
     Ok(Setup {
-        regions: vec![Region {
-            span: (0.0, 1.0),
-            gas: GAS,
-            gradient: -1.0,
-            share: 1.0,
-        }],
-        ends: Boundaries {
-            left: Boundary::Mirror(0.0),
-            right: Boundary::Free,
-        },
+        regions: vec![Region { span: (0.0, 1.0), gas: GAS, gradient: -1.0, share: 1.0 }],
+        ends: Boundaries { left: Boundary::Mirror(0.0), right: Boundary::Free },
         u_0: 1.0,
         time: 0.5,
         exact: Box::new(move |x, t| Ok(exact.sample(x, t)?)),
@@ -68,18 +50,10 @@ fn claims() -> Vec<Claim> {
     )];
     let limit =
         "linear viscosity heats a uniform compression, and the printed heating (60) ends the run";
-    let shown = Claims {
-        kind: Kind::Stability,
-        weight: Weight::Shown,
-        source: limit,
-        ..must
-    };
+    let shown = Claims { kind: Kind::Stability, weight: Weight::Shown, source: limit, ..must };
     out.push(shown.claim(
         "L1 ρ, n = 200, `paper`",
-        Quantity::Norm(
-            RunKey::new(ID, Scheme::preset(Preset::Paper), 200),
-            "density_l1",
-        ),
+        Quantity::Norm(RunKey::new(ID, Scheme::preset(Preset::Paper), 200), "density_l1"),
         Wanted::AtMost(1e-3),
     ));
     out.extend(conservation(ID, &key));

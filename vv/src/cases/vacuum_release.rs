@@ -11,12 +11,7 @@ use whipple_solver::scene::{Boundaries, Boundary};
 
 const ID: &str = "vacuum-release";
 const EDGE: f64 = 0.5;
-const GAS: Gas = Gas {
-    density: 1.0,
-    velocity: 0.0,
-    pressure: 1.0,
-    gamma: 1.4,
-};
+const GAS: Gas = Gas { density: 1.0, velocity: 0.0, pressure: 1.0, gamma: 1.4 };
 const SIZES: &[usize] = &[100, 200, 400];
 
 /// The case.
@@ -28,12 +23,7 @@ pub(super) const CASE: GasProblem = GasProblem {
             cannot fall at all.",
     source: "exact Riemann solution with vacuum (Toro, Riemann Solvers, chapter 4)",
     variants: &[""],
-    sizes: Sizes {
-        quick: &[200],
-        standard: SIZES,
-        drawn: 200,
-        fine: &[],
-    },
+    sizes: Sizes { quick: &[200], standard: SIZES, drawn: 200, fine: &[] },
     setup,
     claims,
     eulerian: false,
@@ -42,16 +32,8 @@ pub(super) const CASE: GasProblem = GasProblem {
 fn setup(_: &str) -> Result<Setup, RunError> {
     let riemann = Riemann::new(GAS, Gas::vacuum(GAS.gamma))?;
     Ok(Setup {
-        regions: vec![Region {
-            span: (0.0, EDGE),
-            gas: GAS,
-            gradient: 0.0,
-            share: 1.0,
-        }],
-        ends: Boundaries {
-            left: Boundary::Mirror(0.0),
-            right: Boundary::Free,
-        },
+        regions: vec![Region { span: (0.0, EDGE), gas: GAS, gradient: 0.0, share: 1.0 }],
+        ends: Boundaries { left: Boundary::Mirror(0.0), right: Boundary::Free },
         u_0: 0.0,
         time: 0.2,
         exact: Box::new(move |x, t| Ok(riemann.sample((x - EDGE) / t).gas)),
@@ -67,15 +49,8 @@ fn claims() -> Vec<Claim> {
         Quantity::Norm(key.clone(), "density_l1"),
         Wanted::AtMost(0.0012),
     )];
-    let keys = SIZES
-        .iter()
-        .map(|&n| RunKey::new(ID, Scheme::preset(Preset::Default), n))
-        .collect();
-    let order = Claims {
-        source: "first order in L1",
-        weight: Weight::Must,
-        ..aim
-    };
+    let keys = SIZES.iter().map(|&n| RunKey::new(ID, Scheme::preset(Preset::Default), n)).collect();
+    let order = Claims { source: "first order in L1", weight: Weight::Must, ..aim };
     out.push(order.claim(
         "order of L1 ρ, `default`",
         Quantity::Order(keys, "density_l1"),

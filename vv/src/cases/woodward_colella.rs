@@ -34,12 +34,7 @@ pub(super) const CASE: GasProblem = GasProblem {
             it is a comparison of two codes, not verification.",
     source: "Woodward & Colella, J. Comput. Phys. 54 (1984) 115 (recalled); own reference run",
     variants: &[""],
-    sizes: Sizes {
-        quick: &[200],
-        standard: SIZES,
-        drawn: 400,
-        fine: FINE,
-    },
+    sizes: Sizes { quick: &[200], standard: SIZES, drawn: 400, fine: FINE },
     setup,
     claims,
     eulerian: true,
@@ -59,16 +54,9 @@ fn reference() -> Result<&'static Reference, RunError> {
         let column = |name| table.column(name).map_err(|e| e.to_string());
         let (density, velocity, pressure) =
             (column("density")?, column("velocity")?, column("pressure")?);
-        Ok(Reference {
-            density,
-            velocity,
-            pressure,
-        })
+        Ok(Reference { density, velocity, pressure })
     };
-    TABLE
-        .get_or_init(read)
-        .as_ref()
-        .map_err(|e| RunError::Reference(e.clone()))
+    TABLE.get_or_init(read).as_ref().map_err(|e| RunError::Reference(e.clone()))
 }
 
 impl Reference {
@@ -92,21 +80,12 @@ impl Reference {
 fn problem() -> Setup {
     let region = |from: f64, to: f64, pressure| Region {
         span: (from, to),
-        gas: Gas {
-            density: 1.0,
-            velocity: 0.0,
-            pressure,
-            gamma: GAMMA,
-        },
+        gas: Gas { density: 1.0, velocity: 0.0, pressure, gamma: GAMMA },
         gradient: 0.0,
         share: to - from,
     };
     Setup {
-        regions: vec![
-            region(0.0, 0.1, 1000.0),
-            region(0.1, 0.9, 0.01),
-            region(0.9, 1.0, 100.0),
-        ],
+        regions: vec![region(0.0, 0.1, 1000.0), region(0.1, 0.9, 0.01), region(0.9, 1.0, 100.0)],
         ends: walls(0.0, 1.0),
         u_0: 0.0,
         time: TIME,
@@ -141,10 +120,7 @@ pub(crate) fn make_reference() -> Result<String, RunError> {
         let momentum = cells.iter().map(|g| g.density * g.velocity).sum::<f64>() / count;
         let pressure = cells.iter().map(|g| g.pressure).sum::<f64>() / count;
         let x = (k as f64 + 0.5) / ROWS as f64;
-        text += &format!(
-            "{x:.6},{density:.7e},{:.7e},{pressure:.7e}\n",
-            momentum / density
-        );
+        text += &format!("{x:.6},{density:.7e},{:.7e},{pressure:.7e}\n", momentum / density);
     }
     Ok(text)
 }
@@ -158,10 +134,7 @@ fn claims() -> Vec<Claim> {
         Quantity::Norm(key.clone(), "density_l1"),
         Wanted::AtMost(0.03),
     )];
-    let fine = Claims {
-        source: "the reference must be finer than what it judges",
-        ..must
-    };
+    let fine = Claims { source: "the reference must be finer than what it judges", ..must };
     out.push(fine.claim(
         "L1 ρ of the Godunov code with 10 000 cells: convergence of the reference",
         Quantity::Norm(RunKey::new(ID, Scheme::Godunov, 10_000), "density_l1"),
@@ -171,10 +144,7 @@ fn claims() -> Vec<Claim> {
     let shown = Claims::new(ID, Kind::Stability, Weight::Shown, limit);
     out.push(shown.claim(
         "L1 ρ, n = 400, `paper`",
-        Quantity::Norm(
-            RunKey::new(ID, Scheme::preset(Preset::Paper), 400),
-            "density_l1",
-        ),
+        Quantity::Norm(RunKey::new(ID, Scheme::preset(Preset::Paper), 400), "density_l1"),
         Wanted::AtMost(0.03),
     ));
     out.extend(conservation(ID, &key));

@@ -9,10 +9,7 @@ impl From<CostError> for Failure {
     fn from(error: CostError) -> Self {
         match error {
             CostError::Scene(error) => Self::usage(error),
-            CostError::Step(error) => Self {
-                code: NUMERICAL_FAILURE,
-                message: error.to_string(),
-            },
+            CostError::Step(error) => Self { code: NUMERICAL_FAILURE, message: error.to_string() },
         }
     }
 }
@@ -23,10 +20,7 @@ pub(super) fn bench(args: &BenchArgs) -> Result<u8, Failure> {
     let with = |density, support| Contender { density, support };
     let paper = with(Density::Nonholonomic, natural);
     let rows = [
-        (
-            "kernel, equal contact list",
-            with(Density::Kernel, EQUAL_LIST),
-        ),
+        ("kernel, equal contact list", with(Density::Kernel, EQUAL_LIST)),
         ("kernel, natural support", with(Density::Kernel, natural)),
         ("hybrid", with(Density::Hybrid, natural)),
     ];

@@ -10,12 +10,7 @@ pub(super) fn list() -> Result<u8, Failure> {
     let mut text = String::new();
     for case in ALL {
         text += &format!("{:<18} {}\n", case.id(), case.title());
-        let named: Vec<&str> = case
-            .variants()
-            .iter()
-            .copied()
-            .filter(|v| !v.is_empty())
-            .collect();
+        let named: Vec<&str> = case.variants().iter().copied().filter(|v| !v.is_empty()).collect();
         if !named.is_empty() {
             text += &format!("{:<18}   variants: {}\n", "", named.join(", "));
         }

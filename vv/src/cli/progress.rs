@@ -53,12 +53,10 @@ impl Progress {
 
 impl Monitor for Progress {
     fn tick(&self, time: f64, stop: f64, particle_steps: u64) -> bool {
-        self.bar
-            .set_position((PARTS as f64 * time / stop).min(PARTS as f64) as u64);
+        self.bar.set_position((PARTS as f64 * time / stop).min(PARTS as f64) as u64);
         let seconds = self.bar.elapsed().as_secs_f64().max(1e-9);
         let rate = particle_steps as f64 / seconds / 1e6;
-        self.bar
-            .set_message(format!("t = {time:.4e}, {rate:.1} M particle-steps/s"));
+        self.bar.set_message(format!("t = {time:.4e}, {rate:.1} M particle-steps/s"));
         !STOP.load(Ordering::Relaxed)
     }
 }

@@ -23,22 +23,16 @@ pub(super) fn vv(args: &VvArgs) -> Result<u8, Failure> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
     let pool = pool.map_err(|e| Failure::usage(format!("cannot start a thread: {e}")))?;
     let ended = pool.install(|| {
-        run_suite(
-            &cases,
-            args.level,
-            &args.out,
-            &progress,
-            |key, record| match record {
-                None => progress.start(&key.file_name()),
-                Some(record) => {
-                    let how = match &record.outcome {
-                        Outcome::Completed => format!("{:.2} s", record.cpu_seconds),
-                        Outcome::Failed { message, .. } => format!("failed: {message}"),
-                    };
-                    say(&format!("{:<52} {how}", key.file_name()));
-                }
-            },
-        )
+        run_suite(&cases, args.level, &args.out, &progress, |key, record| match record {
+            None => progress.start(&key.file_name()),
+            Some(record) => {
+                let how = match &record.outcome {
+                    Outcome::Completed => format!("{:.2} s", record.cpu_seconds),
+                    Outcome::Failed { message, .. } => format!("failed: {message}"),
+                };
+                say(&format!("{:<52} {how}", key.file_name()));
+            }
+        })
     });
     progress.done();
     ended?;
@@ -69,10 +63,7 @@ fn check(folder: &Path) -> Result<u8, Failure> {
         return Ok(0);
     }
     let list = differing.join(", ");
-    Err(Failure {
-        code: CLAIM_FAILED,
-        message: format!("not what the records give: {list}"),
-    })
+    Err(Failure { code: CLAIM_FAILED, message: format!("not what the records give: {list}") })
 }
 
 fn compare(
@@ -104,10 +95,7 @@ fn made(folder: &Path) -> Result<Made, Failure> {
     let (page, figures) = document::compose(&records, &verdicts);
     let mut drawings = BTreeMap::new();
     for figure in &figures {
-        drawings.insert(
-            figure.id.clone(),
-            plots::render_svg(figure).map_err(Failure::usage)?,
-        );
+        drawings.insert(figure.id.clone(), plots::render_svg(figure).map_err(Failure::usage)?);
     }
     Ok((page, drawings, verdicts))
 }
@@ -128,9 +116,7 @@ fn conclude<'a>(verdicts: impl Iterator<Item = &'a Verdict>, out: &Path) -> Resu
             Status::Missing => missing += 1,
             Status::Fail => {
                 failed += 1;
-                let value = verdict
-                    .value
-                    .map_or(verdict.note.clone(), |v| report::sig(v, 4));
+                let value = verdict.value.map_or(verdict.note.clone(), |v| report::sig(v, 4));
                 let (case, what) = (verdict.claim.case, &verdict.claim.what);
                 let wanted = verdict.claim.wanted.text();
                 text += &format!("FAILED  {case}: {what}: {value}, wanted {wanted}\n");

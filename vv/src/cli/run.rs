@@ -45,21 +45,9 @@ struct Summary<'a> {
 pub(super) fn run(args: &RunArgs) -> Result<u8, Failure> {
     let case = find(&args.case)?;
     if !case.variants().contains(&args.variant.as_str()) {
-        let known: Vec<&str> = case
-            .variants()
-            .iter()
-            .copied()
-            .filter(|v| !v.is_empty())
-            .collect();
-        let known = if known.is_empty() {
-            "none".into()
-        } else {
-            known.join(", ")
-        };
-        let message = format!(
-            "`{}` has no variant `{}`; known: {known}",
-            args.case, args.variant
-        );
+        let known: Vec<&str> = case.variants().iter().copied().filter(|v| !v.is_empty()).collect();
+        let known = if known.is_empty() { "none".into() } else { known.join(", ") };
+        let message = format!("`{}` has no variant `{}`; known: {known}", args.case, args.variant);
         return Err(Failure::usage(message));
     }
     if args.threads == 0 || args.threads > MAX_THREADS {
@@ -73,9 +61,7 @@ pub(super) fn run(args: &RunArgs) -> Result<u8, Failure> {
 
     let progress = Progress::new();
     progress.start(case.id());
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(args.threads)
-        .build();
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(args.threads).build();
     let pool = pool.map_err(|e| Failure::usage(format!("cannot start threads: {e}")))?;
     let done = pool.install(|| run_case(case, request, &progress));
     progress.done();
@@ -84,16 +70,9 @@ pub(super) fn run(args: &RunArgs) -> Result<u8, Failure> {
     if let Some(out) = &args.out {
         write_outputs(out, &done.record)?;
     }
-    print(&if args.json {
-        json(&done.record)?
-    } else {
-        text(case, &done.record)
-    })?;
+    print(&if args.json { json(&done.record)? } else { text(case, &done.record) })?;
     match done.failure {
-        Some(error) => Err(Failure {
-            code: NUMERICAL_FAILURE,
-            message: error.to_string(),
-        }),
+        Some(error) => Err(Failure { code: NUMERICAL_FAILURE, message: error.to_string() }),
         None => Ok(0),
     }
 }
@@ -102,9 +81,7 @@ fn find(name: &str) -> Result<&'static dyn Case, Failure> {
     cases::find(name).ok_or_else(|| {
         let known: Vec<&str> = cases::ALL.iter().map(|c| c.id()).collect();
         let hint = did_you_mean(name, known);
-        Failure::usage(format!(
-            "there is no case `{name}`{hint} (`whipple list` names them all)"
-        ))
+        Failure::usage(format!("there is no case `{name}`{hint} (`whipple list` names them all)"))
     })
 }
 
@@ -143,12 +120,7 @@ fn request(case: &dyn Case, args: &RunArgs) -> Result<Request, Failure> {
     for set in &args.sets {
         command += &format!(" --set {set}");
     }
-    Ok(Request {
-        key,
-        scene,
-        threads: args.threads,
-        command,
-    })
+    Ok(Request { key, scene, threads: args.threads, command })
 }
 
 fn json(record: &RunRecord) -> Result<String, Failure> {
@@ -179,12 +151,8 @@ fn json(record: &RunRecord) -> Result<String, Failure> {
 }
 
 fn text(case: &dyn Case, record: &RunRecord) -> String {
-    let mut out = format!(
-        "{}: {}, n = {}\n",
-        case.title(),
-        record.key.scheme.label(),
-        record.key.n
-    );
+    let mut out =
+        format!("{}: {}, n = {}\n", case.title(), record.key.scheme.label(), record.key.n);
     let mut row = |name: &str, value: String| out += &format!("  {name:<28} {value}\n");
     for (name, value) in &record.norms {
         row(name, sig(*value, 5));
@@ -203,10 +171,7 @@ fn write_outputs(out: &Path, record: &RunRecord) -> Result<(), Failure> {
         let toml = toml::to_string_pretty(scene).map_err(Failure::usage)?;
         write_atomic(&out.join("scene.toml"), toml.as_bytes())?;
     }
-    for (name, series) in [
-        ("profile.csv", &record.profile),
-        ("history.csv", &record.history),
-    ] {
+    for (name, series) in [("profile.csv", &record.profile), ("history.csv", &record.history)] {
         if let Some(series) = series {
             write_atomic(&out.join(name), csv(series)?.as_bytes())?;
         }
@@ -222,9 +187,7 @@ fn csv(series: &Series) -> Result<String, Failure> {
     let rows = series.0.values().map(Vec::len).max().unwrap_or(0);
     for k in 0..rows {
         let cell = |column: &Vec<f64>| column.get(k).map_or(String::new(), ToString::to_string);
-        writer
-            .write_record(series.0.values().map(cell))
-            .map_err(failed)?;
+        writer.write_record(series.0.values().map(cell)).map_err(failed)?;
     }
     let bytes = writer.into_inner().map_err(Failure::usage)?;
     Ok(String::from_utf8_lossy(&bytes).into_owned())

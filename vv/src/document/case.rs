@@ -19,10 +19,7 @@ pub(super) fn section(
         Block::Paragraph(case.about().into()),
         Block::Paragraph(format!("*Source:* {}.", case.source())),
     ];
-    let claims: Vec<&Verdict> = verdicts
-        .iter()
-        .filter(|v| v.claim.case == case.id())
-        .collect();
+    let claims: Vec<&Verdict> = verdicts.iter().filter(|v| v.claim.case == case.id()).collect();
     if !claims.is_empty() {
         let id = format!("{}-claims", case.id());
         blocks.push(Block::Table(claims_table(
@@ -36,9 +33,7 @@ pub(super) fn section(
     blocks.push(Block::Table(norms_table(case, &runs)));
     let failures: Vec<String> = runs.iter().filter_map(|r| failure(r)).collect();
     if !failures.is_empty() {
-        blocks.push(Block::Paragraph(
-            "Runs that ended in a numerical failure:".into(),
-        ));
+        blocks.push(Block::Paragraph("Runs that ended in a numerical failure:".into()));
         blocks.push(Block::List(failures));
     }
     blocks.extend(orders_table(case, &runs).map(Block::Table));
@@ -46,10 +41,7 @@ pub(super) fn section(
 
     let figures = case.figures(records);
     for figure in &figures {
-        blocks.push(Block::Figure {
-            id: figure.id.clone(),
-            caption: figure.caption.clone(),
-        });
+        blocks.push(Block::Figure { id: figure.id.clone(), caption: figure.caption.clone() });
     }
     (Section::new(case.id(), case.title(), blocks), figures)
 }
@@ -69,16 +61,9 @@ fn failure(record: &RunRecord) -> Option<String> {
 
 /// Every run and its norms.
 fn norms_table(case: &dyn Case, runs: &[&RunRecord]) -> Table {
-    let mut columns = vec![
-        Column::text("scheme"),
-        Column::text("variant"),
-        Column::number("n", ""),
-    ];
-    columns.extend(
-        case.tabulated()
-            .iter()
-            .map(|(_, title)| Column::number(*title, "")),
-    );
+    let mut columns =
+        vec![Column::text("scheme"), Column::text("variant"), Column::number("n", "")];
+    columns.extend(case.tabulated().iter().map(|(_, title)| Column::number(*title, "")));
     let mut runs = runs.to_vec();
     runs.sort_by_key(|r| (r.key.variant.clone(), r.key.scheme, r.key.n));
     let rows = runs.into_iter().map(|r| {
@@ -109,11 +94,7 @@ fn norms_table(case: &dyn Case, runs: &[&RunRecord]) -> Table {
 /// Completed runs by scheme and variant, the coarsest first.
 fn groups<'a>(runs: &[&'a RunRecord]) -> Vec<(Scheme, &'a str, Vec<&'a RunRecord>)> {
     let mut groups: Vec<(Scheme, &str, Vec<&RunRecord>)> = Vec::new();
-    for run in runs
-        .iter()
-        .copied()
-        .filter(|r| r.outcome == Outcome::Completed)
-    {
+    for run in runs.iter().copied().filter(|r| r.outcome == Outcome::Completed) {
         let key = (run.key.scheme, run.key.variant.as_str());
         match groups.iter_mut().find(|(s, v, _)| (*s, *v) == key) {
             Some((_, _, members)) => members.push(run),
@@ -128,12 +109,8 @@ fn groups<'a>(runs: &[&'a RunRecord]) -> Vec<(Scheme, &'a str, Vec<&'a RunRecord
 
 /// A quantity at all sizes of a group.
 fn levels(members: &[&RunRecord], name: &str) -> Vec<Level> {
-    let level = |r: &&RunRecord| {
-        Some(Level {
-            spacing: 1.0 / r.key.n as f64,
-            value: *r.norms.get(name)?,
-        })
-    };
+    let level =
+        |r: &&RunRecord| Some(Level { spacing: 1.0 / r.key.n as f64, value: *r.norms.get(name)? });
     members.iter().filter_map(level).collect()
 }
 

@@ -7,30 +7,17 @@ use crate::report::{Block, Cell, Column, Section, Status, Summary, Table, sig};
 /// The verdict in a sentence, with counts.
 pub(super) fn verdict(verdicts: &[Verdict]) -> Summary {
     let count = |weight, status| {
-        verdicts
-            .iter()
-            .filter(|v| v.claim.weight == weight && v.status == status)
-            .count()
+        verdicts.iter().filter(|v| v.claim.weight == weight && v.status == status).count()
     };
     let passed = count(Weight::Must, Judged::Pass);
     let failed = count(Weight::Must, Judged::Fail);
     let missing = count(Weight::Must, Judged::Missing);
-    let mut text = format!(
-        "{passed} of {} required claims hold",
-        passed + failed + missing
-    );
+    let mut text = format!("{passed} of {} required claims hold", passed + failed + missing);
     if missing > 0 {
         text += &format!("; {missing} have no record");
     }
-    let aims = (
-        count(Weight::Aim, Judged::Pass),
-        count(Weight::Aim, Judged::Fail),
-    );
-    text += &format!(
-        ". Of the goals beyond them {} of {} are reached.",
-        aims.0,
-        aims.0 + aims.1
-    );
+    let aims = (count(Weight::Aim, Judged::Pass), count(Weight::Aim, Judged::Fail));
+    text += &format!(". Of the goals beyond them {} of {} are reached.", aims.0, aims.0 + aims.1);
     let stale = verdicts.iter().filter(|v| v.stale).count();
     if stale > 0 {
         text += &format!(" {stale} claims rest on records older than the solver.");
@@ -83,22 +70,13 @@ pub(super) fn summary(verdicts: &[Verdict]) -> Section {
     ];
     let caption = "Claims by kind. Validation needs an experiment; the one-dimensional problems \
                    have none.";
-    let kinds = Table {
-        id: "kinds".into(),
-        caption: caption.into(),
-        columns,
-        rows,
-    };
+    let kinds = Table { id: "kinds".into(), caption: caption.into(), columns, rows };
     let failed = verdicts.iter().filter(|v| v.status == Judged::Fail);
     let (required, other): (Vec<&Verdict>, Vec<&Verdict>) =
         failed.partition(|v| v.claim.weight == Weight::Must);
     let mut blocks = vec![Block::Table(kinds)];
     if !required.is_empty() {
-        blocks.push(Block::Table(claims_table(
-            "failed",
-            "Required claims that fail.",
-            &required,
-        )));
+        blocks.push(Block::Table(claims_table("failed", "Required claims that fail.", &required)));
     }
     if !other.is_empty() {
         let caption = "Goals not reached, and known limits of the paper's method.";
@@ -118,12 +96,7 @@ pub(super) fn claims_table(id: &str, caption: &str, verdicts: &[&Verdict]) -> Ta
         Column::text("by what source"),
     ];
     let rows = verdicts.iter().map(|v| claim_row(v)).collect();
-    Table {
-        id: id.into(),
-        caption: caption.into(),
-        columns,
-        rows,
-    }
+    Table { id: id.into(), caption: caption.into(), columns, rows }
 }
 
 fn claim_row(verdict: &Verdict) -> Vec<Cell> {
@@ -132,11 +105,7 @@ fn claim_row(verdict: &Verdict) -> Vec<Cell> {
         (Some(value), Some(fit)) => {
             let (low, high) = fit.interval;
             let text = format!("{} [{}, {}]", sig(value, 4), sig(low, 4), sig(high, 4));
-            Cell {
-                text,
-                value: Some(value),
-                status: None,
-            }
+            Cell { text, value: Some(value), status: None }
         }
         (Some(value), None) => Cell::number(value, 5),
         (None, _) if verdict.status == Judged::Fail => {
@@ -157,11 +126,7 @@ fn claim_row(verdict: &Verdict) -> Vec<Cell> {
         (Judged::Fail, Weight::Aim) => "goal missed",
         (Judged::Fail, Weight::Shown) => "fails, as known",
     };
-    let word = if verdict.stale {
-        format!("{word}, stale")
-    } else {
-        word.into()
-    };
+    let word = if verdict.stale { format!("{word}, stale") } else { word.into() };
     let mut source = claim.source.to_owned();
     if claim.in_sample {
         source += "; in sample";
@@ -176,20 +141,14 @@ fn claim_row(verdict: &Verdict) -> Vec<Cell> {
         kind.into(),
         found,
         claim.wanted.text().into(),
-        Cell {
-            status,
-            ..Cell::text(word)
-        },
+        Cell { status, ..Cell::text(word) },
         source.into(),
     ]
 }
 
 /// Text without inline markup.
 pub(super) fn escaped(text: &str) -> String {
-    text.replace('\\', "\\\\")
-        .replace('*', "\\*")
-        .replace('`', "\\`")
-        .replace('$', "\\$")
+    text.replace('\\', "\\\\").replace('*', "\\*").replace('`', "\\`").replace('$', "\\$")
 }
 
 /// How to read the rest.
@@ -244,16 +203,12 @@ pub(super) fn conservation(records: &Records) -> Section {
     ];
     let particles = |r: &&RunRecord| matches!(r.key.scheme, Scheme::Particles { .. });
     let rows = records.iter().filter(particles).map(|r| {
-        let mut row = vec![
-            named(r).into(),
-            r.key.scheme.label().into(),
-            Cell::count(r.key.n as u64),
-        ];
+        let mut row =
+            vec![named(r).into(), r.key.scheme.label().into(), Cell::count(r.key.n as u64)];
         row.extend(match &r.outcome {
-            Outcome::Completed => [
-                Cell::number(r.energy_drift, 2),
-                Cell::number(r.momentum_drift, 2),
-            ],
+            Outcome::Completed => {
+                [Cell::number(r.energy_drift, 2), Cell::number(r.momentum_drift, 2)]
+            }
             Outcome::Failed { kind, .. } => [format!("failed: {kind}").into(), "–".into()],
         });
         row.push(Cell::count(r.steps));
@@ -315,30 +270,27 @@ pub(super) fn cost(records: &Records) -> Section {
         Column::number("pairs a particle and sweep", ""),
         Column::number("kernel evaluations a particle-step", ""),
     ];
-    let rows = records
-        .iter()
-        .filter(|r| r.outcome == Outcome::Completed)
-        .map(|r| {
-            let mut row = vec![
-                named(r).into(),
-                r.key.scheme.label().into(),
-                Cell::count(r.key.n as u64),
-                Cell::count(r.particle_steps),
-                Cell::number(r.cpu_seconds, 3),
-                Cell::number(1e-6 * r.particle_steps as f64 / r.cpu_seconds, 3),
-            ];
-            match r.counters {
-                Some(c) => {
-                    let stages = c.stages as f64;
-                    row.push(Cell::number(c.sweeps as f64 / stages, 3));
-                    row.push(Cell::number(c.pairs as f64 / stages / r.key.n as f64, 3));
-                    let steps = c.particle_steps as f64;
-                    row.push(Cell::number(c.kernel_evaluations as f64 / steps, 3));
-                }
-                None => row.extend(["–", "–", "–"].map(Cell::text)),
+    let rows = records.iter().filter(|r| r.outcome == Outcome::Completed).map(|r| {
+        let mut row = vec![
+            named(r).into(),
+            r.key.scheme.label().into(),
+            Cell::count(r.key.n as u64),
+            Cell::count(r.particle_steps),
+            Cell::number(r.cpu_seconds, 3),
+            Cell::number(1e-6 * r.particle_steps as f64 / r.cpu_seconds, 3),
+        ];
+        match r.counters {
+            Some(c) => {
+                let stages = c.stages as f64;
+                row.push(Cell::number(c.sweeps as f64 / stages, 3));
+                row.push(Cell::number(c.pairs as f64 / stages / r.key.n as f64, 3));
+                let steps = c.particle_steps as f64;
+                row.push(Cell::number(c.kernel_evaluations as f64 / steps, 3));
             }
-            row
-        });
+            None => row.extend(["–", "–", "–"].map(Cell::text)),
+        }
+        row
+    });
     let table = Table {
         id: "cost".into(),
         caption: "Work and CPU time of the stepping, one thread. Counts are exact and the same on any \
@@ -351,11 +303,7 @@ pub(super) fn cost(records: &Records) -> Section {
     let about = "A step has two stages. A stage sweeps once over the neighbours for the density rate \
                  and the forces together; a kernel density needs a sweep of its own before it. The \
                  compatible integrator adds a light sweep that turns forces into work.";
-    Section::new(
-        "cost",
-        "Cost",
-        vec![Block::Paragraph(about.into()), Block::Table(table)],
-    )
+    Section::new("cost", "Cost", vec![Block::Paragraph(about.into()), Block::Table(table)])
 }
 
 /// Where the method departs from what is printed.
@@ -379,11 +327,7 @@ pub(super) fn deviations() -> Section {
         "Not modelled in one dimension: rotation, shear, plasticity, damage.",
     ];
     let blocks = vec![Block::List(items.map(String::from).to_vec())];
-    Section::new(
-        "deviations",
-        "Deviations from the paper, and limits",
-        blocks,
-    )
+    Section::new("deviations", "Deviations from the paper, and limits", blocks)
 }
 
 /// Where the numbers come from.
@@ -423,9 +367,7 @@ pub(super) fn provenance(records: &Records) -> Section {
             ("system", p.os.clone()),
             ("run between", format!("{first} and {last}")),
         ];
-        blocks.push(Block::Definitions(
-            rows.map(|(k, v)| (k.to_owned(), escaped(&v))).to_vec(),
-        ));
+        blocks.push(Block::Definitions(rows.map(|(k, v)| (k.to_owned(), escaped(&v))).to_vec()));
     }
     let again = "Every record names the command that repeats it; `whipple vv` runs them all, \
                  `whipple report` redraws this page from the records.";

@@ -21,17 +21,9 @@ impl UniformCollapse {
     /// # Errors
     /// An inadmissible or empty gas, or `time <= 0`.
     pub fn new(geometry: Geometry, initial: Gas, time: f64) -> Result<Self, InputError> {
-        let initial = Gas {
-            velocity: 0.0,
-            ..initial
-        }
-        .validated()?;
+        let initial = Gas { velocity: 0.0, ..initial }.validated()?;
         above("density", initial.density, 0.0)?;
-        Ok(Self {
-            geometry,
-            initial,
-            time: above("time", time, 0.0)?,
-        })
+        Ok(Self { geometry, initial, time: above("time", time, 0.0)? })
     }
 
     /// State at radius `r` and time `t`; only the velocity depends on `r`.
@@ -41,12 +33,7 @@ impl UniformCollapse {
     pub fn sample(&self, r: f64, t: f64) -> Result<Gas, InputError> {
         let (r, scale) = (at_least("r", r, 0.0)?, self.scale(t)?);
         let volume = scale.powi(self.geometry.dimension());
-        let Gas {
-            density,
-            pressure,
-            gamma,
-            ..
-        } = self.initial;
+        let Gas { density, pressure, gamma, .. } = self.initial;
         Ok(Gas {
             density: density / volume,
             velocity: -r / (self.time * scale),
@@ -101,19 +88,11 @@ mod tests {
     #[test]
     fn matches_the_unit_form_and_refuses_the_singularity() {
         let gamma = 5.0 / 3.0;
-        let initial = Gas {
-            density: 1.0,
-            velocity: 0.0,
-            pressure: gamma - 1.0,
-            gamma,
-        };
+        let initial = Gas { density: 1.0, velocity: 0.0, pressure: gamma - 1.0, gamma };
         let flow = UniformCollapse::new(Geometry::Spherical, initial, 1.0).unwrap();
         let gas = flow.sample(0.25, 0.5).unwrap();
         assert!((gas.density - 8.0).abs() < 1e-12);
-        assert!(
-            (gas.energy() - 4.0).abs() < 1e-12,
-            "e0 (1-t)^(-d (g-1)) = 2^2"
-        );
+        assert!((gas.energy() - 4.0).abs() < 1e-12, "e0 (1-t)^(-d (g-1)) = 2^2");
         assert!((gas.velocity + 0.5).abs() < 1e-15);
         assert!(flow.sample(0.1, 1.0).is_err() && flow.position(0.1, -1.0).is_err());
     }

@@ -115,20 +115,12 @@ pub fn collide(left: Block, right: Block) -> Result<Collision, CollisionError> {
         let closing = rods[0].free_velocity() + rods[1].free_velocity();
         let contact = gap <= 0.0 && closing > ROUNDING * approach;
         let pressure = if contact { coupling * closing } else { 0.0 };
-        let opening = if contact || gap <= 0.0 {
-            (-closing).max(0.0)
-        } else {
-            -closing
-        };
+        let opening = if contact || gap <= 0.0 { (-closing).max(0.0) } else { -closing };
         for rod in &mut rods {
             rod.reflect(time, pressure, ROUNDING * approach);
         }
         let arrival = rods[0].next_arrival().min(rods[1].next_arrival());
-        let touch = if opening < 0.0 {
-            time - gap / opening
-        } else {
-            f64::INFINITY
-        };
+        let touch = if opening < 0.0 { time - gap / opening } else { f64::INFINITY };
         let next = arrival.min(touch);
         let recoil = approach - impulse / left.mass();
         let advance = impulse / right.mass();
@@ -145,11 +137,7 @@ pub fn collide(left: Block, right: Block) -> Result<Collision, CollisionError> {
         }
         impulse += pressure * (next - time);
         peak_pressure = peak_pressure.max(pressure);
-        gap = if touch <= arrival {
-            0.0
-        } else {
-            gap + opening * (next - time)
-        };
+        gap = if touch <= arrival { 0.0 } else { gap + opening * (next - time) };
         time = next;
         if contact {
             contact_time = time;
@@ -190,19 +178,14 @@ impl Rod {
     /// the same, to within the velocity `tolerance`, as the last one.
     fn reflect(&mut self, time: f64, pressure: f64, tolerance: f64) {
         let returning = self.incoming - 2.0 * pressure;
-        let last = self
-            .pending
-            .back()
-            .map_or(self.incoming, |&(_, value)| value);
+        let last = self.pending.back().map_or(self.incoming, |&(_, value)| value);
         if (returning - last).abs() > tolerance * self.impedance {
             self.pending.push_back((time + self.round_trip, returning));
         }
     }
 
     fn next_arrival(&self) -> f64 {
-        self.pending
-            .front()
-            .map_or(f64::INFINITY, |&(arrival, _)| arrival)
+        self.pending.front().map_or(f64::INFINITY, |&(arrival, _)| arrival)
     }
 
     /// Takes in what has arrived by `time`.
@@ -217,14 +200,8 @@ impl Rod {
     /// Bound on how far the free end can swing towards the other block, if the centre of mass
     /// moves at `velocity`: the end's velocity has the period of a round trip and that mean.
     fn excursion(&self, velocity: f64) -> f64 {
-        let values = self
-            .pending
-            .iter()
-            .map(|&(_, value)| value)
-            .chain([self.incoming]);
-        let swing = values
-            .map(|a| (a / self.impedance - velocity).abs())
-            .fold(0.0, f64::max);
+        let values = self.pending.iter().map(|&(_, value)| value).chain([self.incoming]);
+        let swing = values.map(|a| (a / self.impedance - velocity).abs()).fold(0.0, f64::max);
         0.5 * swing * self.round_trip
     }
 }

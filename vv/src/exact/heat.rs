@@ -26,10 +26,7 @@ impl CosineMode {
     pub fn new(particles: u32, number: u32, exchange_rate: f64) -> Result<Self, InputError> {
         let n = above("particles", f64::from(particles), 0.0)?;
         let m = below("number", f64::from(number), n)?;
-        Ok(Self {
-            phase: PI * m / n,
-            exchange_rate: above("exchange rate", exchange_rate, 0.0)?,
-        })
+        Ok(Self { phase: PI * m / n, exchange_rate: above("exchange rate", exchange_rate, 0.0)? })
     }
 
     /// Mode shape at particle `i`, `cos(pi m (i + 1/2)/n)`, at the chain coordinate `i + 1/2`.

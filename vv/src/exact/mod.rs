@@ -60,25 +60,13 @@ impl fmt::Display for InputError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
             Self::NotFinite { quantity, value } => write!(f, "{quantity} = {value} is not finite"),
-            Self::NotAbove {
-                quantity,
-                value,
-                bound,
-            } => {
+            Self::NotAbove { quantity, value, bound } => {
                 write!(f, "{quantity} = {value} must be greater than {bound}")
             }
-            Self::Below {
-                quantity,
-                value,
-                bound,
-            } => {
+            Self::Below { quantity, value, bound } => {
                 write!(f, "{quantity} = {value} must not be less than {bound}")
             }
-            Self::NotBelow {
-                quantity,
-                value,
-                bound,
-            } => {
+            Self::NotBelow { quantity, value, bound } => {
                 write!(f, "{quantity} = {value} must be less than {bound}")
             }
             Self::VacuumPressure { value } => {
@@ -92,53 +80,25 @@ impl std::error::Error for InputError {}
 
 /// Returns `value` if it is finite.
 pub(crate) fn finite(quantity: &'static str, value: f64) -> Result<f64, InputError> {
-    if value.is_finite() {
-        Ok(value)
-    } else {
-        Err(InputError::NotFinite { quantity, value })
-    }
+    if value.is_finite() { Ok(value) } else { Err(InputError::NotFinite { quantity, value }) }
 }
 
 /// Returns `value` if it is finite and greater than `bound`.
 pub(crate) fn above(quantity: &'static str, value: f64, bound: f64) -> Result<f64, InputError> {
     let value = finite(quantity, value)?;
-    if value > bound {
-        Ok(value)
-    } else {
-        Err(InputError::NotAbove {
-            quantity,
-            value,
-            bound,
-        })
-    }
+    if value > bound { Ok(value) } else { Err(InputError::NotAbove { quantity, value, bound }) }
 }
 
 /// Returns `value` if it is finite and at least `bound`.
 pub(crate) fn at_least(quantity: &'static str, value: f64, bound: f64) -> Result<f64, InputError> {
     let value = finite(quantity, value)?;
-    if value >= bound {
-        Ok(value)
-    } else {
-        Err(InputError::Below {
-            quantity,
-            value,
-            bound,
-        })
-    }
+    if value >= bound { Ok(value) } else { Err(InputError::Below { quantity, value, bound }) }
 }
 
 /// Returns `value` if it is finite and less than `bound`.
 pub(crate) fn below(quantity: &'static str, value: f64, bound: f64) -> Result<f64, InputError> {
     let value = finite(quantity, value)?;
-    if value < bound {
-        Ok(value)
-    } else {
-        Err(InputError::NotBelow {
-            quantity,
-            value,
-            bound,
-        })
-    }
+    if value < bound { Ok(value) } else { Err(InputError::NotBelow { quantity, value, bound }) }
 }
 
 /// Symmetry of a one-dimensional flow.
@@ -186,12 +146,7 @@ impl Gas {
     /// Empty space; its velocity is zero by convention.
     #[must_use]
     pub const fn vacuum(gamma: f64) -> Self {
-        Self {
-            density: 0.0,
-            velocity: 0.0,
-            pressure: 0.0,
-            gamma,
-        }
+        Self { density: 0.0, velocity: 0.0, pressure: 0.0, gamma }
     }
 
     /// Returns the state itself if it is admissible.
@@ -204,9 +159,7 @@ impl Gas {
         at_least("pressure", self.pressure, 0.0)?;
         finite("velocity", self.velocity)?;
         if self.is_vacuum() && self.pressure > 0.0 {
-            return Err(InputError::VacuumPressure {
-                value: self.pressure,
-            });
+            return Err(InputError::VacuumPressure { value: self.pressure });
         }
         Ok(self)
     }
@@ -220,21 +173,13 @@ impl Gas {
     /// Adiabatic sound speed `sqrt(gamma p / rho)`; zero in vacuum.
     #[must_use]
     pub fn sound_speed(&self) -> f64 {
-        if self.is_vacuum() {
-            0.0
-        } else {
-            (self.gamma * self.pressure / self.density).sqrt()
-        }
+        if self.is_vacuum() { 0.0 } else { (self.gamma * self.pressure / self.density).sqrt() }
     }
 
     /// Specific internal energy `p / ((gamma - 1) rho)`, energy per mass; zero in vacuum.
     #[must_use]
     pub fn energy(&self) -> f64 {
-        if self.is_vacuum() {
-            0.0
-        } else {
-            self.pressure / ((self.gamma - 1.0) * self.density)
-        }
+        if self.is_vacuum() { 0.0 } else { self.pressure / ((self.gamma - 1.0) * self.density) }
     }
 
     /// Mass, momentum and total energy per volume, `[rho, rho u, p/(gamma-1) + rho u^2/2]`.
@@ -261,10 +206,7 @@ impl Gas {
     /// The same state seen in a mirror, `u -> -u`.
     #[must_use]
     pub const fn mirrored(self) -> Self {
-        Self {
-            velocity: -self.velocity,
-            ..self
-        }
+        Self { velocity: -self.velocity, ..self }
     }
 }
 
@@ -294,12 +236,7 @@ mod tests {
 
     #[test]
     fn refuses_bad_states_with_a_message() {
-        let good = Gas {
-            density: 1.0,
-            velocity: 0.0,
-            pressure: 1.0,
-            gamma: 1.4,
-        };
+        let good = Gas { density: 1.0, velocity: 0.0, pressure: 1.0, gamma: 1.4 };
         assert_eq!(good.validated(), Ok(good));
         let message = |gas: Gas| gas.validated().map_err(|e| e.to_string());
         assert_eq!(
@@ -307,28 +244,11 @@ mod tests {
             Err("gamma = 1 must be greater than 1".into())
         );
         assert_eq!(
-            message(Gas {
-                density: 0.0,
-                ..good
-            }),
+            message(Gas { density: 0.0, ..good }),
             Err("pressure = 1 in a gas of zero density".into())
         );
-        assert!(
-            Gas {
-                velocity: f64::NAN,
-                ..good
-            }
-            .validated()
-            .is_err()
-        );
-        assert!(
-            Gas {
-                pressure: -1.0,
-                ..good
-            }
-            .validated()
-            .is_err()
-        );
+        assert!(Gas { velocity: f64::NAN, ..good }.validated().is_err());
+        assert!(Gas { pressure: -1.0, ..good }.validated().is_err());
         assert!(Gas::vacuum(1.4).validated().is_ok());
     }
 }

@@ -52,10 +52,7 @@ impl Wave {
     const fn mirrored(self) -> Self {
         match self {
             Self::Shock { speed } => Self::Shock { speed: -speed },
-            Self::Rarefaction { head, tail } => Self::Rarefaction {
-                head: -head,
-                tail: -tail,
-            },
+            Self::Rarefaction { head, tail } => Self::Rarefaction { head: -head, tail: -tail },
         }
     }
 }
@@ -116,28 +113,17 @@ impl Riemann {
         let (left, right) = (left.validated()?, right.validated()?);
         let (left, right) = (RightWave::new(left.mirrored()), RightWave::new(right));
         let middle = match star_pressure(&left, &right) {
-            None => Middle::Vacuum {
-                left: -left.escape_velocity(),
-                right: right.escape_velocity(),
-            },
+            None => {
+                Middle::Vacuum { left: -left.escape_velocity(), right: right.escape_velocity() }
+            }
             Some(p) => {
                 let velocity = 0.5 * (right.gas.velocity + right.velocity_change(p).0)
                     - 0.5 * (left.gas.velocity + left.velocity_change(p).0);
-                let star = |side: &RightWave| Gas {
-                    velocity,
-                    ..side.star(p)
-                };
-                Middle::Star {
-                    left: star(&left),
-                    right: star(&right),
-                }
+                let star = |side: &RightWave| Gas { velocity, ..side.star(p) };
+                Middle::Star { left: star(&left), right: star(&right) }
             }
         };
-        Ok(Self {
-            left,
-            right,
-            middle,
-        })
+        Ok(Self { left, right, middle })
     }
 
     /// The region between the waves.
@@ -168,21 +154,12 @@ impl Riemann {
         };
         if xi <= left_edge && !self.left.gas.is_vacuum() {
             let gas = self.left.sample(-xi, -left_edge, pressure).mirrored();
-            Sample {
-                gas,
-                origin: Origin::Left,
-            }
+            Sample { gas, origin: Origin::Left }
         } else if xi >= right_edge && !self.right.gas.is_vacuum() {
             let gas = self.right.sample(xi, right_edge, pressure);
-            Sample {
-                gas,
-                origin: Origin::Right,
-            }
+            Sample { gas, origin: Origin::Right }
         } else {
-            Sample {
-                gas: Gas::vacuum(self.right.gas.gamma),
-                origin: Origin::Vacuum,
-            }
+            Sample { gas: Gas::vacuum(self.right.gas.gamma), origin: Origin::Vacuum }
         }
     }
 
@@ -246,11 +223,7 @@ fn star_pressure(left: &RightWave, right: &RightWave) -> Option<f64> {
         }
         let step = value / (p * slope);
         let newton = p * (-step).exp();
-        let next = if newton > low && newton < high {
-            newton
-        } else {
-            low.sqrt() * high.sqrt()
-        };
+        let next = if newton > low && newton < high { newton } else { low.sqrt() * high.sqrt() };
         if value == 0.0 || step.abs() < 4.0 * f64::EPSILON || high - low <= f64::EPSILON * high {
             break;
         }

@@ -85,10 +85,7 @@ impl StepLoad {
     /// # Errors
     /// A `stress` that is not finite.
     pub fn new(bar: Bar, stress: f64) -> Result<Self, InputError> {
-        Ok(Self {
-            bar,
-            stress: finite("stress", stress)?,
-        })
+        Ok(Self { bar, stress: finite("stress", stress)? })
     }
 
     /// Velocity jump `sigma/(rho c)` of the first front.
@@ -107,9 +104,7 @@ impl StepLoad {
     /// # Errors
     /// `x` outside the bar, or `t` not finite.
     pub fn sample(&self, x: f64, t: f64) -> Result<BarState, InputError> {
-        let Bar {
-            length, wave_speed, ..
-        } = self.bar;
+        let Bar { length, wave_speed, .. } = self.bar;
         let x = length - at_least("length - x", length - at_least("x", x, 0.0)?, 0.0)?;
         let t = finite("t", t)?;
         let (leftward, left_travel) = self.arrivals(t - (length - x) / wave_speed);
@@ -170,11 +165,7 @@ impl StandingWave {
             End::Free => m,
         };
         let wavenumber = half_waves * PI / bar.length;
-        Ok(Self {
-            bar,
-            wavenumber,
-            amplitude: finite("amplitude", amplitude)?,
-        })
+        Ok(Self { bar, wavenumber, amplitude: finite("amplitude", amplitude)? })
     }
 
     /// Frequency in cycles per time: `(2 m - 1) c/(4 L)` fixed-free, `m c/(2 L)` free-free.

@@ -52,11 +52,7 @@ pub(super) struct Scheme {
 
 impl Scheme {
     pub(super) fn new(gamma: f64, floor: f64) -> Self {
-        Self {
-            gamma,
-            energy_factor: 1.0 / (gamma - 1.0),
-            floor,
-        }
+        Self { gamma, energy_factor: 1.0 / (gamma - 1.0), floor }
     }
 
     /// Recovers the primitive from the conserved fields of equally many cells; returns the number
@@ -140,10 +136,7 @@ impl Scheme {
     fn hllc(self, left: Triple, right: Triple) -> (Triple, f64) {
         let ([r_l, u_l, p_l], [r_r, u_r, p_r]) = (left, right);
         let inverse = 1.0 / (r_l * r_r);
-        let (a_l, a_r) = (
-            self.gamma * p_l * r_r * inverse,
-            self.gamma * p_r * r_l * inverse,
-        );
+        let (a_l, a_r) = (self.gamma * p_l * r_r * inverse, self.gamma * p_r * r_l * inverse);
         // Einfeldt's average of the squared sound speeds.
         let weight = r_r * inverse.sqrt();
         let share = 1.0 / (1.0 + weight);
@@ -155,11 +148,8 @@ impl Scheme {
         let (m_l, m_r) = (r_l * (s_l - u_l), r_r * (s_r - u_r));
         let contact = (p_r - p_l + m_l * u_l - m_r * u_r) / (m_l - m_r);
         let rightward = contact >= 0.0;
-        let ([density, velocity, pressure], outer, mass) = if rightward {
-            (left, s_l, m_l)
-        } else {
-            (right, s_r, m_r)
-        };
+        let ([density, velocity, pressure], outer, mass) =
+            if rightward { (left, s_l, m_l) } else { (right, s_r, m_r) };
         let energy = self.energy_factor * pressure + 0.5 * density * velocity * velocity;
         let star_pressure = pressure + mass * (contact - velocity);
         let scale = contact / (outer - contact);
@@ -172,14 +162,8 @@ impl Scheme {
         let pick = |one_sided: f64, star: f64| if upwind { one_sided } else { star };
         let flux = [
             pick(flow, star_flow),
-            pick(
-                flow * velocity + pressure,
-                star_flow * contact + star_pressure,
-            ),
-            pick(
-                velocity * (energy + pressure),
-                star_energy + star_pressure * contact,
-            ),
+            pick(flow * velocity + pressure, star_flow * contact + star_pressure),
+            pick(velocity * (energy + pressure), star_energy + star_pressure * contact),
         ];
         (flux, greater(-s_l, s_r))
     }

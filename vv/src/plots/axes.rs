@@ -46,9 +46,7 @@ pub(super) fn range(axis: &Axis, values: impl Iterator<Item = f64>) -> (f64, f64
     }
     let (lo, hi) = values
         .filter(|v| drawable(axis.scale, *v))
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), v| {
-            (lo.min(v), hi.max(v))
-        });
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), v| (lo.min(v), hi.max(v)));
     match axis.scale {
         _ if lo > hi => {
             if axis.scale == Scale::Linear {
@@ -97,34 +95,19 @@ pub(super) fn ticks(scale: Scale, (lo, hi): (f64, f64), count: usize) -> Ticks {
 fn linear_ticks(lo: f64, hi: f64, count: usize) -> Ticks {
     let raw = (hi - lo) / count.max(1) as f64;
     let unit = power_of_ten(raw.log10().floor() as i32);
-    let step = [1.0, 2.0, 5.0]
-        .map(|m| m * unit)
-        .into_iter()
-        .find(|s| *s >= raw * (1.0 - 1e-9));
+    let step = [1.0, 2.0, 5.0].map(|m| m * unit).into_iter().find(|s| *s >= raw * (1.0 - 1e-9));
     let step = step.unwrap_or(10.0 * unit);
     let size = lo.abs().max(hi.abs()).log10().floor() as i32;
-    let power = if (-2..=4).contains(&size) {
-        0
-    } else {
-        size.div_euclid(3) * 3
-    };
+    let power = if (-2..=4).contains(&size) { 0 } else { size.div_euclid(3) * 3 };
     let scale = power_of_ten(power);
     let decimals = (-(step / scale * (1.0 + 1e-9)).log10().floor()).max(0.0) as usize;
     let (first, last) = ((lo / step - 1e-6).ceil(), (hi / step + 1e-6).floor());
     let major = (0..=(last - first).max(0.0) as usize)
         .map(|i| (first + i as f64) * step)
-        .map(|at| Tick {
-            at,
-            label: minus(&format!("{:.decimals$}", at / scale + 0.0)),
-            rank: 0,
-        })
+        .map(|at| Tick { at, label: minus(&format!("{:.decimals$}", at / scale + 0.0)), rank: 0 })
         .collect();
     let factor = (power != 0).then(|| format!("×10{}", superscript(power)));
-    Ticks {
-        major,
-        minor: Vec::new(),
-        factor,
-    }
+    Ticks { major, minor: Vec::new(), factor }
 }
 
 fn log_ticks(lo: f64, hi: f64, count: usize) -> Ticks {
@@ -150,22 +133,16 @@ fn log_ticks(lo: f64, hi: f64, count: usize) -> Ticks {
     let major = major.map(|(m, e)| Tick {
         at: f64::from(m) * power_of_ten(e),
         label: match (plain, m) {
-            (true, _) => format!(
-                "{:.*}",
-                usize::try_from(-e).unwrap_or(0),
-                f64::from(m) * power_of_ten(e)
-            ),
+            (true, _) => {
+                format!("{:.*}", usize::try_from(-e).unwrap_or(0), f64::from(m) * power_of_ten(e))
+            }
             (false, 1) => format!("10{}", superscript(e)),
             (false, _) => format!("{m}×10{}", superscript(e)),
         },
         rank: u8::from(m != 1),
     });
     let minor = multiples(minor).map(|(m, e)| f64::from(m) * power_of_ten(e));
-    Ticks {
-        major: major.collect(),
-        minor: minor.collect(),
-        factor: None,
-    }
+    Ticks { major: major.collect(), minor: minor.collect(), factor: None }
 }
 
 /// The nearest double to a power of ten, which `powi` does not always give.
@@ -203,11 +180,7 @@ pub(super) struct Mapping {
 impl Mapping {
     /// The mapping of a range onto pixels.
     pub(super) fn new(scale: Scale, (lo, hi): (f64, f64), pixels: (f64, f64)) -> Self {
-        Self {
-            scale,
-            data: (Self::length(scale, lo), Self::length(scale, hi)),
-            pixels,
-        }
+        Self { scale, data: (Self::length(scale, lo), Self::length(scale, hi)), pixels }
     }
 
     /// Where a value lies, or nothing when it cannot be drawn.
@@ -237,14 +210,8 @@ mod tests {
 
     #[test]
     fn linear_ticks_are_round() {
-        assert_eq!(
-            labels(&ticks(Scale::Linear, (-0.31, 0.52), 5)),
-            ["−0.2", "0.0", "0.2", "0.4"]
-        );
-        assert_eq!(
-            labels(&ticks(Scale::Linear, (0.0, 4.2), 5)),
-            ["0", "1", "2", "3", "4"]
-        );
+        assert_eq!(labels(&ticks(Scale::Linear, (-0.31, 0.52), 5)), ["−0.2", "0.0", "0.2", "0.4"]);
+        assert_eq!(labels(&ticks(Scale::Linear, (0.0, 4.2), 5)), ["0", "1", "2", "3", "4"]);
         let small = ticks(Scale::Linear, (0.0, 8.1e-4), 5);
         assert_eq!(labels(&small), ["0", "200", "400", "600", "800"]);
         assert_eq!(small.factor.as_deref(), Some("×10⁻⁶"));
@@ -256,12 +223,7 @@ mod tests {
         assert_eq!(labels(&near), ["50", "100", "200", "500", "1000", "2000"]);
         assert!(near.minor.contains(&300.0));
         let far = ticks(Scale::Log10, (3e-9, 0.2), 8);
-        assert_eq!(
-            labels(&far),
-            [
-                "10⁻⁸", "10⁻⁷", "10⁻⁶", "10⁻⁵", "10⁻⁴", "10⁻³", "10⁻²", "10⁻¹"
-            ]
-        );
+        assert_eq!(labels(&far), ["10⁻⁸", "10⁻⁷", "10⁻⁶", "10⁻⁵", "10⁻⁴", "10⁻³", "10⁻²", "10⁻¹"]);
         assert_eq!(ticks(Scale::Log10, (1e-30, 1.0), 6).major.len(), 7);
         assert_eq!(labels(&ticks(Scale::Log10, (2e-6, 6e-5), 8))[0], "2×10⁻⁶");
         assert_eq!(labels(&ticks(Scale::Log10, (0.11, 0.18), 8)).len(), 4);

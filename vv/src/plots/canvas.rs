@@ -18,14 +18,8 @@ const LINE: f64 = 1.24;
 
 /// The regular and bold fonts of all figures.
 pub(super) const FONTS: [(FontStyle, &[u8]); 2] = [
-    (
-        FontStyle::Normal,
-        include_bytes!("../../assets/fonts/DejaVuSans.ttf"),
-    ),
-    (
-        FontStyle::Bold,
-        include_bytes!("../../assets/fonts/DejaVuSans-Bold.ttf"),
-    ),
+    (FontStyle::Normal, include_bytes!("../../assets/fonts/DejaVuSans.ttf")),
+    (FontStyle::Bold, include_bytes!("../../assets/fonts/DejaVuSans-Bold.ttf")),
 ];
 
 /// A stroke.
@@ -40,11 +34,7 @@ pub(super) struct Pen {
 impl Pen {
     /// An unbroken stroke.
     pub(super) fn solid(ink: Ink, width: f64) -> Self {
-        Self {
-            ink,
-            width,
-            dash: &[],
-        }
+        Self { ink, width, dash: &[] }
     }
 }
 
@@ -63,14 +53,7 @@ pub(super) struct Label<'a> {
 impl<'a> Label<'a> {
     /// Horizontal text in the regular face.
     pub(super) fn new(text: &'a str, size: f64, ink: Ink, anchor: (HPos, VPos)) -> Self {
-        Self {
-            text,
-            size,
-            ink,
-            bold: false,
-            anchor,
-            upright: false,
-        }
+        Self { text, size, ink, bold: false, anchor, upright: false }
     }
 
     /// The length of the text, slightly overestimated so that other fonts fit as well.
@@ -81,21 +64,13 @@ impl<'a> Label<'a> {
     }
 
     fn font(&self) -> FontDesc<'static> {
-        let face = if self.bold {
-            FontStyle::Bold
-        } else {
-            FontStyle::Normal
-        };
+        let face = if self.bold { FontStyle::Bold } else { FontStyle::Normal };
         // Not `into_font().style(..)`, which would keep the regular outlines.
         FontDesc::new(FontFamily::SansSerif, self.size * LINE * UNITS, face)
     }
 
     fn style(&self) -> TextStyle<'a> {
-        let turn = if self.upright {
-            FontTransform::Rotate270
-        } else {
-            FontTransform::None
-        };
+        let turn = if self.upright { FontTransform::Rotate270 } else { FontTransform::None };
         TextStyle {
             font: self.font().transform(turn),
             color: rgb(self.ink).to_backend_color(),
@@ -114,9 +89,7 @@ impl<'a> Canvas<'a> {
     pub(super) fn new(svg: &'a mut String, (width, height): Point) -> Result<Self, PlotError> {
         register()?;
         let size = ((width * UNITS) as u32, (height * UNITS) as u32);
-        Ok(Self {
-            area: SVGBackend::with_string(svg, size).into_drawing_area(),
-        })
+        Ok(Self { area: SVGBackend::with_string(svg, size).into_drawing_area() })
     }
 
     /// Ends the drawing.
@@ -129,28 +102,21 @@ impl<'a> Canvas<'a> {
         if label.text.is_empty() {
             return Ok(());
         }
-        self.area
-            .draw_text(label.text, &label.style(), units(at))
-            .map_err(PlotError::draw)
+        self.area.draw_text(label.text, &label.style(), units(at)).map_err(PlotError::draw)
     }
 
     /// Draws a line through points.
     pub(super) fn line(&self, points: &[Point], pen: Pen) -> Result<(), PlotError> {
         let style = rgb(pen.ink).stroke_width((pen.width * UNITS).round().max(1.0) as u32);
-        let dashes = if pen.dash.is_empty() {
-            vec![points.to_vec()]
-        } else {
-            dashes(points, pen.dash)
-        };
+        let dashes =
+            if pen.dash.is_empty() { vec![points.to_vec()] } else { dashes(points, pen.dash) };
         for dash in dashes.iter().filter(|d| d.len() > 1) {
             let mut path: Vec<_> = dash.iter().map(|p| units(*p)).collect();
             path.dedup();
             if let [only] = path[..] {
                 path.push(only);
             }
-            self.area
-                .draw(&PathElement::new(path, style))
-                .map_err(PlotError::draw)?;
+            self.area.draw(&PathElement::new(path, style)).map_err(PlotError::draw)?;
         }
         Ok(())
     }
@@ -171,10 +137,7 @@ impl<'a> Canvas<'a> {
         ink: Ink,
     ) -> Result<(), PlotError> {
         let place = |points: &[Point]| -> Vec<Point> {
-            points
-                .iter()
-                .map(|(x, y)| (at.0 + r * x, at.1 + r * y))
-                .collect()
+            points.iter().map(|(x, y)| (at.0 + r * x, at.1 + r * y)).collect()
         };
         let pen = Pen::solid(ink, (0.42 * r).clamp(0.75, 1.4));
         match shape {
@@ -183,19 +146,15 @@ impl<'a> Canvas<'a> {
                 let circle = Circle::new(units(at), radius, rgb(ink).filled());
                 self.area.draw(&circle).map_err(PlotError::draw)
             }
-            Marker::Square => self.fill(
-                &place(&[(-0.9, -0.9), (0.9, -0.9), (0.9, 0.9), (-0.9, 0.9)]),
-                ink,
-                1.0,
-            ),
+            Marker::Square => {
+                self.fill(&place(&[(-0.9, -0.9), (0.9, -0.9), (0.9, 0.9), (-0.9, 0.9)]), ink, 1.0)
+            }
             Marker::Triangle => {
                 self.fill(&place(&[(0.0, -1.25), (1.15, 0.8), (-1.15, 0.8)]), ink, 1.0)
             }
-            Marker::Diamond => self.fill(
-                &place(&[(0.0, -1.35), (1.15, 0.0), (0.0, 1.35), (-1.15, 0.0)]),
-                ink,
-                1.0,
-            ),
+            Marker::Diamond => {
+                self.fill(&place(&[(0.0, -1.35), (1.15, 0.0), (0.0, 1.35), (-1.15, 0.0)]), ink, 1.0)
+            }
             Marker::Ring => {
                 let turn = |i: i32| f64::from(i) * std::f64::consts::TAU / 16.0;
                 let ring: Vec<_> = (0..=16).map(|i| (turn(i).cos(), turn(i).sin())).collect();
@@ -220,14 +179,8 @@ impl<'a> Canvas<'a> {
 /// Makes the bundled fonts known to plotters, once.
 fn register() -> Result<(), PlotError> {
     static DONE: OnceLock<bool> = OnceLock::new();
-    let register = || {
-        FONTS
-            .iter()
-            .all(|(s, f)| register_font("sans-serif", *s, f).is_ok())
-    };
-    DONE.get_or_init(register)
-        .then_some(())
-        .ok_or(PlotError::Font)
+    let register = || FONTS.iter().all(|(s, f)| register_font("sans-serif", *s, f).is_ok());
+    DONE.get_or_init(register).then_some(()).ok_or(PlotError::Font)
 }
 
 fn rgb(ink: Ink) -> RGBColor {
@@ -275,14 +228,8 @@ mod tests {
     #[test]
     fn dashes_run_around_corners() {
         let cut = dashes(&[(0.0, 0.0), (5.0, 0.0), (5.0, 5.0)], &[4.0, 2.0]);
-        assert_eq!(
-            cut,
-            [vec![(0.0, 0.0), (4.0, 0.0)], vec![(5.0, 1.0), (5.0, 5.0)]]
-        );
+        assert_eq!(cut, [vec![(0.0, 0.0), (4.0, 0.0)], vec![(5.0, 1.0), (5.0, 5.0)]]);
         let straight = dashes(&[(0.0, 0.0), (10.0, 0.0)], &[4.0, 2.0]);
-        assert_eq!(
-            straight,
-            [[(0.0, 0.0), (4.0, 0.0)], [(6.0, 0.0), (10.0, 0.0)]]
-        );
+        assert_eq!(straight, [[(0.0, 0.0), (4.0, 0.0)], [(6.0, 0.0), (10.0, 0.0)]]);
     }
 }

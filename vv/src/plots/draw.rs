@@ -16,15 +16,9 @@ type Drawn = Result<(), PlotError>;
 pub(super) fn panel(canvas: &Canvas, plot: &mut Plot, slots: &Slots) -> Drawn {
     axes(canvas, plot)?;
     let layers = &plot.panel.layers;
-    layers
-        .iter()
-        .try_for_each(|layer| shades(canvas, plot, slots, layer))?;
-    layers
-        .iter()
-        .try_for_each(|layer| rules(canvas, plot, layer))?;
-    plot.slopes
-        .iter()
-        .try_for_each(|slope| outline(canvas, plot, slope))?;
+    layers.iter().try_for_each(|layer| shades(canvas, plot, slots, layer))?;
+    layers.iter().try_for_each(|layer| rules(canvas, plot, layer))?;
+    plot.slopes.iter().try_for_each(|slope| outline(canvas, plot, slope))?;
     for layer in layers {
         if let Layer::Series(s) = layer {
             series(canvas, plot, s, slots.of(&s.name).unwrap_or(0))?;
@@ -45,12 +39,7 @@ pub(super) fn panel(canvas: &Canvas, plot: &mut Plot, slots: &Slots) -> Drawn {
 
 /// Grid, ticks and their labels.
 fn axes(canvas: &Canvas, plot: &Plot) -> Drawn {
-    let Frame {
-        left,
-        top,
-        right,
-        bottom,
-    } = plot.frame;
+    let Frame { left, top, right, bottom } = plot.frame;
     let (grid, tick) = (Pen::solid(GRID, 0.75), Pen::solid(AXIS, 0.9));
     let (xs, ys) = (&plot.ticks.0, &plot.ticks.1);
     for x in xs.major.iter().filter_map(|t| plot.map.0.at(t.at)) {
@@ -99,55 +88,22 @@ fn axes(canvas: &Canvas, plot: &Plot) -> Drawn {
 
 /// The frame, the axis labels, the title and remarks above the frame.
 fn frame(canvas: &Canvas, plot: &Plot) -> Drawn {
-    let Frame {
-        left,
-        top,
-        right,
-        bottom,
-    } = plot.frame;
-    let corners = [
-        (left, top),
-        (right, top),
-        (right, bottom),
-        (left, bottom),
-        (left, top),
-    ];
+    let Frame { left, top, right, bottom } = plot.frame;
+    let corners = [(left, top), (right, top), (right, bottom), (left, bottom), (left, top)];
     canvas.line(&corners, Pen::solid(AXIS, 0.9))?;
     let text =
         |text: &str, at: Point, anchor, ink| canvas.text(&Label::new(text, SMALL, ink, anchor), at);
-    let x_label = Label::new(
-        &plot.panel.x.label,
-        LABEL,
-        INK,
-        (HPos::Center, VPos::Bottom),
-    );
+    let x_label = Label::new(&plot.panel.x.label, LABEL, INK, (HPos::Center, VPos::Bottom));
     canvas.text(&x_label, (0.5 * (left + right), bottom + 40.0))?;
     let y_label = Label::new(&plot.panel.y.label, LABEL, INK, (HPos::Center, VPos::Top));
-    canvas.text(
-        &Label {
-            upright: true,
-            ..y_label
-        },
-        (plot.left + 8.0, 0.5 * (top + bottom)),
-    )?;
+    canvas.text(&Label { upright: true, ..y_label }, (plot.left + 8.0, 0.5 * (top + bottom)))?;
     let title = Label::new(&plot.panel.title, 12.5, INK, (HPos::Center, VPos::Bottom));
-    canvas.text(
-        &Label {
-            bold: true,
-            ..title
-        },
-        (0.5 * (left + right), top - 7.0),
-    )?;
+    canvas.text(&Label { bold: true, ..title }, (0.5 * (left + right), top - 7.0))?;
     if let Some(factor) = &plot.ticks.1.factor {
         text(factor, (left, top - 6.0), (HPos::Left, VPos::Bottom), AXIS)?;
     }
     if let Some(factor) = &plot.ticks.0.factor {
-        text(
-            factor,
-            (right, bottom + 36.0),
-            (HPos::Right, VPos::Bottom),
-            AXIS,
-        )?;
+        text(factor, (right, bottom + 36.0), (HPos::Right, VPos::Bottom), AXIS)?;
     }
     if plot.empty {
         let centre = (0.5 * (left + right), 0.5 * (top + bottom));
@@ -155,31 +111,17 @@ fn frame(canvas: &Canvas, plot: &Plot) -> Drawn {
     }
     if plot.skipped > 0 {
         let remark = format!("{} not drawable", plot.skipped);
-        text(
-            &remark,
-            (right, top - 6.0),
-            (HPos::Right, VPos::Bottom),
-            MUTED,
-        )?;
+        text(&remark, (right, top - 6.0), (HPos::Right, VPos::Bottom), MUTED)?;
     }
     Ok(())
 }
 
 /// Bands and strips.
 fn shades(canvas: &Canvas, plot: &Plot, slots: &Slots, layer: &Layer) -> Drawn {
-    let Frame {
-        left,
-        top,
-        right,
-        bottom,
-    } = plot.frame;
+    let Frame { left, top, right, bottom } = plot.frame;
     match layer {
         Layer::Span { along, limits, .. } => {
-            let map = if *along == Along::Horizontal {
-                plot.map.1
-            } else {
-                plot.map.0
-            };
+            let map = if *along == Along::Horizontal { plot.map.1 } else { plot.map.0 };
             let (Some(a), Some(b)) = (map.at(limits.0), map.at(limits.1)) else {
                 return Ok(());
             };
@@ -219,11 +161,7 @@ fn rules(canvas: &Canvas, plot: &Plot, layer: &Layer) -> Drawn {
     let Layer::Rule { along, at, .. } = layer else {
         return Ok(());
     };
-    let pen = Pen {
-        ink: MUTED,
-        width: 1.0,
-        dash: &[4.5, 3.0],
-    };
+    let pen = Pen { ink: MUTED, width: 1.0, dash: &[4.5, 3.0] };
     rule(*along, *at, plot.map, plot.frame).map_or(Ok(()), |(a, b)| canvas.line(&[a, b], pen))
 }
 
@@ -231,11 +169,7 @@ fn rules(canvas: &Canvas, plot: &Plot, layer: &Layer) -> Drawn {
 fn outline(canvas: &Canvas, plot: &Plot, slope: &Slope) -> Drawn {
     let pen = match slope.shape {
         SlopeShape::Triangle => Pen::solid(MUTED, 1.0),
-        SlopeShape::Line => Pen {
-            ink: MUTED,
-            width: 1.0,
-            dash: &[2.0, 2.5],
-        },
+        SlopeShape::Line => Pen { ink: MUTED, width: 1.0, dash: &[2.0, 2.5] },
     };
     curve(canvas, plot, &slope.path, pen)
 }
@@ -250,11 +184,7 @@ fn series(canvas: &Canvas, plot: &Plot, series: &Series, slot: usize) -> Drawn {
     let ink = style::colour(slot);
     let pen = Pen::solid(ink, 1.0);
     for ((x, y), (minus, plus)) in series.points.iter().zip(&series.errors) {
-        let low = if plot.map.1.at(y - minus).is_some() {
-            y - minus
-        } else {
-            *y
-        };
+        let low = if plot.map.1.at(y - minus).is_some() { y - minus } else { *y };
         let ends = [(*x, low), (*x, y + plus)];
         for piece in plot.frame.clip(&pixels(&ends, plot.map)) {
             canvas.line(&piece, pen)?;
@@ -267,10 +197,7 @@ fn series(canvas: &Canvas, plot: &Plot, series: &Series, slot: usize) -> Drawn {
         curve(canvas, plot, &series.points, pen)?;
     }
     if let Some(marker) = series.marker {
-        let (shape, r) = (
-            style::marker(marker, slot),
-            style::radius(series.points.len()),
-        );
+        let (shape, r) = (style::marker(marker, slot), style::radius(series.points.len()));
         let spots = pixels(&series.points, plot.map).into_iter().flatten();
         for at in spots.filter(|at| plot.frame.holds(*at)) {
             canvas.marker(shape, at, r, ink)?;
@@ -284,12 +211,7 @@ fn labels(canvas: &Canvas, plot: &mut Plot) -> Drawn {
     for slope in plot.slopes.clone() {
         slope_labels(canvas, plot, &slope)?;
     }
-    let Frame {
-        left,
-        top,
-        right,
-        bottom,
-    } = plot.frame;
+    let Frame { left, top, right, bottom } = plot.frame;
     for layer in &plot.panel.layers {
         let (text, anchors) = match layer {
             Layer::Note { at, text } => {
@@ -307,10 +229,7 @@ fn labels(canvas: &Canvas, plot: &mut Plot) -> Drawn {
                     Along::Horizontal => [a.1 - 8.0, a.1 + 8.0]
                         .into_iter()
                         .flat_map(|y| {
-                            [
-                                ((right - 6.0, y), HPos::Right),
-                                ((left + 6.0, y), HPos::Left),
-                            ]
+                            [((right - 6.0, y), HPos::Right), ((left + 6.0, y), HPos::Left)]
                         })
                         .collect(),
                     Along::Vertical => [top + 11.0, bottom - 11.0, 0.5 * (top + bottom)]
@@ -338,28 +257,15 @@ fn slope_labels(canvas: &Canvas, plot: &mut Plot, slope: &Slope) -> Drawn {
     match slope.shape {
         SlopeShape::Line => {
             // Below the line: right of it if it rises, left of it if it falls.
-            let (side, anchor) = if b.1 < a.1 {
-                (6.0, HPos::Left)
-            } else {
-                (-6.0, HPos::Right)
-            };
+            let (side, anchor) = if b.1 < a.1 { (6.0, HPos::Left) } else { (-6.0, HPos::Right) };
             let along = |t: f64| (a.0 + t * (b.0 - a.0) + side, a.1 + t * (b.1 - a.1) + 9.0);
             let places = [0.5, 0.7, 0.3, 0.85, 0.15].map(|t| (along(t), anchor));
             write(canvas, plot, &format!("order {order}"), &places)
         }
         SlopeShape::Triangle => {
             let rises = corner.0 > 0.5 * (a.0 + b.0);
-            let (side, anchor) = if rises {
-                (6.0, HPos::Left)
-            } else {
-                (-6.0, HPos::Right)
-            };
-            write(
-                canvas,
-                plot,
-                &order,
-                &[((corner.0 + side, 0.5 * (a.1 + b.1)), anchor)],
-            )?;
+            let (side, anchor) = if rises { (6.0, HPos::Left) } else { (-6.0, HPos::Right) };
+            write(canvas, plot, &order, &[((corner.0 + side, 0.5 * (a.1 + b.1)), anchor)])?;
             let base = (0.5 * (a.0 + b.0), corner.1 + 8.0);
             write(canvas, plot, "1", &[(base, HPos::Center)])
         }
@@ -376,12 +282,7 @@ fn write(canvas: &Canvas, plot: &mut Plot, text: &str, anchors: &[(Point, HPos)]
             HPos::Center => x - 0.5 * length,
             HPos::Right => x - length,
         };
-        Frame {
-            left,
-            top: y - 6.5,
-            right: left + length,
-            bottom: y + 6.5,
-        }
+        Frame { left, top: y - 6.5, right: left + length, bottom: y + 6.5 }
     };
     let fits =
         |f: &Frame| plot.frame.holds((f.left, f.top)) && plot.frame.holds((f.right, f.bottom));

@@ -126,17 +126,10 @@ impl Slope {
     pub(super) fn all(panel: &Panel) -> Vec<Self> {
         let series: Vec<Vec<Point>> = panel.layers.iter().filter_map(logarithms).collect();
         let guides = panel.layers.iter().filter_map(|layer| match layer {
-            Layer::Slope {
-                order,
-                shape,
-                anchor,
-            } => Some((*order, *shape, *anchor)),
+            Layer::Slope { order, shape, anchor } => Some((*order, *shape, *anchor)),
             _ => None,
         });
-        guides
-            .enumerate()
-            .filter_map(|(i, guide)| Self::place(i, guide, &series))
-            .collect()
+        guides.enumerate().filter_map(|(i, guide)| Self::place(i, guide, &series)).collect()
     }
 
     fn place(
@@ -150,15 +143,10 @@ impl Slope {
             SlopeShape::Line => (0.0, wide),
             SlopeShape::Triangle => {
                 let fit = 0.35 * high / order.abs().max(1e-9);
-                (
-                    [0.56, 0.3, 0.06][index % 3] * wide,
-                    (0.22 * wide).min(fit.max(0.08 * wide)),
-                )
+                ([0.56, 0.3, 0.06][index % 3] * wide, (0.22 * wide).min(fit.max(0.08 * wide)))
             }
         };
-        let anchor = anchor
-            .filter(|a| a.0 > 0.0 && a.1 > 0.0)
-            .map(|a| (a.0.log10(), a.1.log10()));
+        let anchor = anchor.filter(|a| a.0 > 0.0 && a.1 > 0.0).map(|a| (a.0.log10(), a.1.log10()));
         let (a, foot) = match (shape, anchor) {
             (SlopeShape::Triangle, Some(anchor)) => anchor,
             (SlopeShape::Line, Some(anchor)) => {
@@ -167,10 +155,7 @@ impl Slope {
             }
             (_, None) => {
                 let a = x?.0 + start;
-                (
-                    a,
-                    below(series, order, (a, a + width))? - 0.08 * high.max(0.5),
-                )
+                (a, below(series, order, (a, a + width))? - 0.08 * high.max(0.5))
             }
         };
         let (b, top) = (a + width, foot + order * width);
@@ -179,11 +164,7 @@ impl Slope {
             SlopeShape::Line => vec![(a, foot), (b, top)],
             SlopeShape::Triangle => vec![(a, foot), (b, top), corner, (a, foot)],
         };
-        let corner = if shape == SlopeShape::Line {
-            (b, top)
-        } else {
-            corner
-        };
+        let corner = if shape == SlopeShape::Line { (b, top) } else { corner };
         let raise = |p: Point| (10f64.powf(p.0), 10f64.powf(p.1));
         Some(Self {
             path: path.into_iter().map(raise).collect(),
@@ -196,9 +177,7 @@ impl Slope {
     /// The exponent as text.
     pub(super) fn text(&self) -> String {
         let text = format!("{:.2}", self.order);
-        text.trim_end_matches('0')
-            .trim_end_matches('.')
-            .replace('-', "−")
+        text.trim_end_matches('0').trim_end_matches('.').replace('-', "−")
     }
 }
 
@@ -208,11 +187,7 @@ fn logarithms(layer: &Layer) -> Option<Vec<Point>> {
         return None;
     };
     let fits = |p: &&Point| drawable(Scale::Log10, p.0) && drawable(Scale::Log10, p.1);
-    let points = series
-        .points
-        .iter()
-        .filter(fits)
-        .map(|p| (p.0.log10(), p.1.log10()));
+    let points = series.points.iter().filter(fits).map(|p| (p.0.log10(), p.1.log10()));
     let mut points: Vec<Point> = points.collect();
     points.sort_by(|a, b| a.0.total_cmp(&b.0));
     (!points.is_empty()).then_some(points)
@@ -236,22 +211,13 @@ fn below(series: &[Vec<Point>], slope: f64, (from, to): (f64, f64)) -> Option<f6
             }
         }
     }
-    let alone = || {
-        series
-            .iter()
-            .flatten()
-            .map(|p| p.1 - slope * (p.0 - from))
-            .reduce(f64::min)
-    };
+    let alone = || series.iter().flatten().map(|p| p.1 - slope * (p.0 - from)).reduce(f64::min);
     heights.into_iter().reduce(f64::min).or_else(alone)
 }
 
 /// Maps data points to pixels.
 pub(super) fn pixels(points: &[Point], (x, y): (Mapping, Mapping)) -> Vec<Option<Point>> {
-    points
-        .iter()
-        .map(|p| Some((x.at(p.0)?, y.at(p.1)?)))
-        .collect()
+    points.iter().map(|p| Some((x.at(p.0)?, y.at(p.1)?))).collect()
 }
 
 #[cfg(test)]
@@ -259,32 +225,14 @@ mod tests {
     use super::*;
     use crate::plots::{Axis, Series};
 
-    const FRAME: Frame = Frame {
-        left: 0.0,
-        top: 0.0,
-        right: 10.0,
-        bottom: 10.0,
-    };
+    const FRAME: Frame = Frame { left: 0.0, top: 0.0, right: 10.0, bottom: 10.0 };
 
     #[test]
     fn lines_are_cut_at_the_frame_and_at_gaps() {
-        let line = [
-            Some((-5.0, 5.0)),
-            Some((5.0, 5.0)),
-            None,
-            Some((5.0, 2.0)),
-            Some((5.0, 20.0)),
-        ];
+        let line = [Some((-5.0, 5.0)), Some((5.0, 5.0)), None, Some((5.0, 2.0)), Some((5.0, 20.0))];
         let pieces = FRAME.clip(&line);
-        assert_eq!(
-            pieces,
-            [[(0.0, 5.0), (5.0, 5.0)], [(5.0, 2.0), (5.0, 10.0)]]
-        );
-        assert!(
-            FRAME
-                .clip(&[Some((-1.0, -1.0)), Some((11.0, -1.0))])
-                .is_empty()
-        );
+        assert_eq!(pieces, [[(0.0, 5.0), (5.0, 5.0)], [(5.0, 2.0), (5.0, 10.0)]]);
+        assert!(FRAME.clip(&[Some((-1.0, -1.0)), Some((11.0, -1.0))]).is_empty());
     }
 
     #[test]

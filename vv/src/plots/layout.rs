@@ -60,11 +60,8 @@ impl<'a> Layout<'a> {
             3 => (3, (360.0, 330.0)),
             _ => (2, (480.0, 310.0)),
         };
-        let drafts: Vec<Draft> = figure
-            .panels
-            .iter()
-            .map(|p| Draft::new(p, (width, height)))
-            .collect();
+        let drafts: Vec<Draft> =
+            figure.panels.iter().map(|p| Draft::new(p, (width, height))).collect();
         let margins: Vec<f64> = drafts.iter().map(Draft::margin).collect::<Result<_, _>>()?;
         let mut plots: Vec<Plot> = (0..)
             .zip(drafts)
@@ -86,41 +83,25 @@ impl<'a> Layout<'a> {
         let rows = figure.panels.len().div_ceil(columns);
         let (width, height) = (width * columns as f64, height * rows as f64);
         let entries: Vec<Vec<Entry>> = plots.iter().map(|p| legend::entries([p.panel])).collect();
-        let places = plots
-            .iter()
-            .zip(&entries)
-            .map(|(p, e)| legend::place(e, p.frame, &p.obstacles));
+        let places =
+            plots.iter().zip(&entries).map(|(p, e)| legend::place(e, p.frame, &p.obstacles));
         let places = places.collect::<Result<Vec<_>, _>>()?;
         // One legend below the panels serves all if they share it, or if it would cover data.
         let shared = entries.len() > 1
             && entries[0].len() > 1
             && entries.iter().all(|other| legend::same(other, &entries[0]));
-        let covers = places
-            .iter()
-            .zip(&entries)
-            .any(|(p, e)| p.is_none() && !e.is_empty());
+        let covers = places.iter().zip(&entries).any(|(p, e)| p.is_none() && !e.is_empty());
         let strip = if shared || covers {
-            Some((
-                Strip::new(legend::entries(&figure.panels), width - 40.0)?,
-                height + 2.0,
-            ))
+            Some((Strip::new(legend::entries(&figure.panels), width - 40.0)?, height + 2.0))
         } else {
             for (plot, place) in plots.iter_mut().zip(places) {
-                place
-                    .into_iter()
-                    .for_each(|place| plot.obstacles.taken(place));
+                place.into_iter().for_each(|place| plot.obstacles.taken(place));
                 plot.legend = place;
             }
             None
         };
-        let foot = strip
-            .as_ref()
-            .map_or(0.0, |(strip, _)| strip.height() + 4.0);
-        Ok(Self {
-            plots,
-            size: (width, height + foot),
-            strip,
-        })
+        let foot = strip.as_ref().map_or(0.0, |(strip, _)| strip.height() + 4.0);
+        Ok(Self { plots, size: (width, height + foot), strip })
     }
 }
 
@@ -155,9 +136,7 @@ impl<'a> Draft<'a> {
         for slope in &slopes {
             values.0.extend(slope.path.iter().map(|p| p.0));
             // A little more below, for the label of the base.
-            values
-                .1
-                .extend(slope.path.iter().flat_map(|p| [p.1, 0.7 * p.1]));
+            values.1.extend(slope.path.iter().flat_map(|p| [p.1, 0.7 * p.1]));
         }
         let least = values.0.iter().copied().fold(f64::INFINITY, f64::min);
         let empty = values.0.is_empty() && values.1.is_empty();
@@ -173,35 +152,14 @@ impl<'a> Draft<'a> {
             axes::ticks(panel.x.scale, ranges.0, (width / 70.0) as usize),
             axes::ticks(panel.y.scale, ranges.1, (height / 48.0) as usize),
         );
-        Self {
-            panel,
-            ranges,
-            ticks,
-            slopes,
-            skipped,
-            empty,
-        }
+        Self { panel, ranges, ticks, slopes, skipped, empty }
     }
 
     /// Room for the labels of the vertical axis.
     fn margin(&self) -> Result<f64, PlotError> {
-        let lengths = self
-            .ticks
-            .1
-            .major
-            .iter()
-            .map(|t| tick_label(&t.label).length());
-        let longest = lengths
-            .collect::<Result<Vec<_>, _>>()?
-            .into_iter()
-            .fold(0.0, f64::max);
-        Ok(longest
-            + 15.0
-            + if self.panel.y.label.is_empty() {
-                0.0
-            } else {
-                2.0 * LABEL
-            })
+        let lengths = self.ticks.1.major.iter().map(|t| tick_label(&t.label).length());
+        let longest = lengths.collect::<Result<Vec<_>, _>>()?.into_iter().fold(0.0, f64::max);
+        Ok(longest + 15.0 + if self.panel.y.label.is_empty() { 0.0 } else { 2.0 * LABEL })
     }
 
     /// Whether there is anything above the frame.
@@ -218,33 +176,11 @@ impl<'a> Draft<'a> {
         for layer in &self.panel.layers {
             block(&mut obstacles, layer, map, frame);
         }
-        for piece in self
-            .slopes
-            .iter()
-            .flat_map(|s| frame.clip(&pixels(&s.path, map)))
-        {
+        for piece in self.slopes.iter().flat_map(|s| frame.clip(&pixels(&s.path, map))) {
             obstacles.line(&piece);
         }
-        let Self {
-            panel,
-            ticks,
-            slopes,
-            skipped,
-            empty,
-            ..
-        } = self;
-        Plot {
-            panel,
-            map,
-            ticks,
-            frame,
-            left,
-            slopes,
-            skipped,
-            empty,
-            legend: None,
-            obstacles,
-        }
+        let Self { panel, ticks, slopes, skipped, empty, .. } = self;
+        Plot { panel, map, ticks, frame, left, slopes, skipped, empty, legend: None, obstacles }
     }
 }
 
@@ -280,8 +216,7 @@ pub(super) fn error_ends(layer: &Layer) -> Vec<f64> {
         return Vec::new();
     };
     let bars = series.points.iter().zip(&series.errors);
-    bars.flat_map(|((_, y), (minus, plus))| [y - minus, y + plus])
-        .collect()
+    bars.flat_map(|((_, y), (minus, plus))| [y - minus, y + plus]).collect()
 }
 
 /// Marks the pixels of a layer as taken.
@@ -310,11 +245,7 @@ fn block(obstacles: &mut Obstacles, layer: &Layer, map: (Mapping, Mapping), fram
         Layer::Note { at, .. } => std::slice::from_ref(at),
         _ => &[],
     };
-    for at in pixels(single, map)
-        .into_iter()
-        .flatten()
-        .filter(|p| frame.holds(*p))
-    {
+    for at in pixels(single, map).into_iter().flatten().filter(|p| frame.holds(*p)) {
         // A marker is about as wide as this cross.
         obstacles.line(&[(at.0 - 4.0, at.1), (at.0 + 4.0, at.1)]);
         obstacles.line(&[(at.0, at.1 - 4.0), (at.0, at.1 + 4.0)]);
@@ -322,10 +253,7 @@ fn block(obstacles: &mut Obstacles, layer: &Layer, map: (Mapping, Mapping), fram
     if let Layer::Series(series) = layer {
         for ((x, y), (minus, plus)) in series.points.iter().zip(&series.errors) {
             let ends = pixels(&[(*x, y - minus), (*x, y + plus)], map);
-            frame
-                .clip(&ends)
-                .iter()
-                .for_each(|piece| obstacles.line(piece));
+            frame.clip(&ends).iter().for_each(|piece| obstacles.line(piece));
         }
     }
 }

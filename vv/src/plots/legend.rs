@@ -78,12 +78,7 @@ impl Entry<'_> {
             Layer::Exact { .. } => canvas.line(&line, exact())?,
             _ => {
                 let (top, bottom) = (y - 4.5, y + 4.5);
-                let corners = [
-                    (x, top),
-                    (x + SAMPLE, top),
-                    (x + SAMPLE, bottom),
-                    (x, bottom),
-                ];
+                let corners = [(x, top), (x + SAMPLE, top), (x + SAMPLE, bottom), (x, bottom)];
                 canvas.fill(&corners, slots.ink(self.name), 0.3)?;
             }
         }
@@ -94,20 +89,12 @@ impl Entry<'_> {
 /// The stroke of a series, if it has one.
 pub(super) fn stroke(series: &Series, slot: usize) -> Option<Pen> {
     let dash = style::pattern(series.line?, slot);
-    Some(Pen {
-        ink: style::colour(slot),
-        width: 1.5,
-        dash,
-    })
+    Some(Pen { ink: style::colour(slot), width: 1.5, dash })
 }
 
 /// The stroke of exact solutions.
 pub(super) fn exact() -> Pen {
-    Pen {
-        ink: INK,
-        width: 1.25,
-        dash: &[6.0, 3.0],
-    }
+    Pen { ink: INK, width: 1.25, dash: &[6.0, 3.0] }
 }
 
 /// The legend entries of panels, each name once.
@@ -150,10 +137,7 @@ pub(super) fn place(
     if entries.is_empty() {
         return Ok(None);
     }
-    let lengths: Vec<f64> = entries
-        .iter()
-        .map(Entry::length)
-        .collect::<Result<_, _>>()?;
+    let lengths: Vec<f64> = entries.iter().map(Entry::length).collect::<Result<_, _>>()?;
     let width = lengths.into_iter().fold(0.0, f64::max) + 2.0 * PAD;
     let height = entries.len() as f64 * ROW + 2.0 * PAD - 4.0;
     let room = frame.shrunk(7.0);
@@ -162,27 +146,15 @@ pub(super) fn place(
         return Ok(None);
     }
     let (centre, middle) = (0.5 * (room.left + left), 0.5 * (room.top + top));
-    let corners = [
-        (left, room.top),
-        (room.left, room.top),
-        (room.left, top),
-        (left, top),
-    ];
-    let edges = [
-        (centre, room.top),
-        (left, middle),
-        (room.left, middle),
-        (centre, top),
-    ];
+    let corners = [(left, room.top), (room.left, room.top), (room.left, top), (left, top)];
+    let edges = [(centre, room.top), (left, middle), (room.left, middle), (centre, top)];
     let candidates = corners.into_iter().chain(edges).map(|(x, y)| Frame {
         left: x,
         top: y,
         right: x + width,
         bottom: y + height,
     });
-    Ok(obstacles
-        .freest(candidates)
-        .filter(|place| obstacles.hits(*place) == 0))
+    Ok(obstacles.freest(candidates).filter(|place| obstacles.hits(*place) == 0))
 }
 
 /// Draws a legend in a free place, on paper that hides the grid.
@@ -192,22 +164,10 @@ pub(super) fn draw_in(
     slots: &Slots,
     place: Frame,
 ) -> Result<(), PlotError> {
-    let Frame {
-        left,
-        top,
-        right,
-        bottom,
-    } = place;
-    canvas.fill(
-        &[(left, top), (right, top), (right, bottom), (left, bottom)],
-        PAPER,
-        0.88,
-    )?;
+    let Frame { left, top, right, bottom } = place;
+    canvas.fill(&[(left, top), (right, top), (right, bottom), (left, bottom)], PAPER, 0.88)?;
     let rows = (0..).map(|i| top + PAD - 2.0 + ROW * (f64::from(i) + 0.5));
-    entries
-        .iter()
-        .zip(rows)
-        .try_for_each(|(e, y)| e.draw(canvas, slots, (left + PAD, y)))
+    entries.iter().zip(rows).try_for_each(|(e, y)| e.draw(canvas, slots, (left + PAD, y)))
 }
 
 /// A legend in centred rows below the panels.
@@ -244,10 +204,7 @@ impl<'a> Strip<'a> {
         slots: &Slots,
         (width, top): Point,
     ) -> Result<(), PlotError> {
-        for ((end, row), y) in self
-            .rows
-            .iter()
-            .zip((0..).map(|i| top + (ROW + 1.0) * f64::from(i)))
+        for ((end, row), y) in self.rows.iter().zip((0..).map(|i| top + (ROW + 1.0) * f64::from(i)))
         {
             let left = 0.5 * (width - end) + 8.0;
             for (x, entry) in row {

@@ -86,11 +86,7 @@ pub fn render_svg(figure: &Figure) -> Result<String, PlotError> {
     let (width, height) = layout.size;
     let mut drawing = String::new();
     let canvas = canvas::Canvas::new(&mut drawing, layout.size)?;
-    canvas.fill(
-        &[(0.0, 0.0), (width, 0.0), (width, height), (0.0, height)],
-        style::PAPER,
-        1.0,
-    )?;
+    canvas.fill(&[(0.0, 0.0), (width, 0.0), (width, height), (0.0, height)], style::PAPER, 1.0)?;
     for plot in &mut layout.plots {
         draw::panel(&canvas, plot, &slots)?;
     }
@@ -109,10 +105,7 @@ fn check(figure: &Figure, slots: &legend::Slots) -> Result<(), PlotError> {
         return Err(PlotError::TooManySeries(slots.len()));
     }
     for panel in &figure.panels {
-        if let Some(axis) = [&panel.x, &panel.y]
-            .into_iter()
-            .find(|axis| !axes::valid(axis))
-        {
+        if let Some(axis) = [&panel.x, &panel.y].into_iter().find(|axis| !axes::valid(axis)) {
             return Err(PlotError::Range(axis.label.clone()));
         }
         let logarithmic = panel.x.scale == Scale::Log10 && panel.y.scale == Scale::Log10;

@@ -25,11 +25,7 @@ pub struct Figure {
 impl Figure {
     /// A figure of the given panels.
     pub fn new(id: impl Into<String>, caption: impl Into<String>, panels: Vec<Panel>) -> Self {
-        Self {
-            id: id.into(),
-            caption: caption.into(),
-            panels,
-        }
+        Self { id: id.into(), caption: caption.into(), panels }
     }
 }
 
@@ -49,12 +45,7 @@ pub struct Panel {
 impl Panel {
     /// An empty panel.
     pub fn new(title: impl Into<String>, x: Axis, y: Axis) -> Self {
-        Self {
-            title: title.into(),
-            x,
-            y,
-            layers: Vec::new(),
-        }
+        Self { title: title.into(), x, y, layers: Vec::new() }
     }
 
     /// The panel with one more layer.
@@ -79,20 +70,12 @@ pub struct Axis {
 impl Axis {
     /// A linear axis with automatic range.
     pub fn linear(label: impl Into<String>) -> Self {
-        Self {
-            label: label.into(),
-            scale: Scale::Linear,
-            range: None,
-        }
+        Self { label: label.into(), scale: Scale::Linear, range: None }
     }
 
     /// A decadic logarithmic axis with automatic range.
     pub fn log(label: impl Into<String>) -> Self {
-        Self {
-            label: label.into(),
-            scale: Scale::Log10,
-            range: None,
-        }
+        Self { label: label.into(), scale: Scale::Log10, range: None }
     }
 
     /// The axis with fixed limits.
@@ -170,37 +153,22 @@ pub enum Layer {
 impl Layer {
     /// An exact solution.
     pub fn exact(name: impl Into<String>, points: Vec<Point>) -> Self {
-        Self::Exact {
-            name: name.into(),
-            points,
-        }
+        Self::Exact { name: name.into(), points }
     }
 
     /// A horizontal reference line.
     pub fn horizontal(at: f64, label: impl Into<String>) -> Self {
-        Self::Rule {
-            along: Along::Horizontal,
-            at,
-            label: label.into(),
-        }
+        Self::Rule { along: Along::Horizontal, at, label: label.into() }
     }
 
     /// A vertical reference line.
     pub fn vertical(at: f64, label: impl Into<String>) -> Self {
-        Self::Rule {
-            along: Along::Vertical,
-            at,
-            label: label.into(),
-        }
+        Self::Rule { along: Along::Vertical, at, label: label.into() }
     }
 
     /// A slope triangle, placed below the data.
     pub fn slope(order: f64) -> Self {
-        Self::Slope {
-            order,
-            shape: SlopeShape::Triangle,
-            anchor: None,
-        }
+        Self::Slope { order, shape: SlopeShape::Triangle, anchor: None }
     }
 }
 
@@ -267,13 +235,7 @@ impl Series {
     }
 
     fn new(name: String, points: Vec<Point>, line: Option<Dash>, marker: Option<Marker>) -> Self {
-        Self {
-            name,
-            points,
-            errors: Vec::new(),
-            line,
-            marker,
-        }
+        Self { name, points, errors: Vec::new(), line, marker }
     }
 }
 

@@ -14,27 +14,15 @@ const LARGEST: f32 = 16_384.0;
 /// # Errors
 /// The text is no SVG, or the picture would be empty or unreasonably large.
 pub fn svg_to_png(svg: &str, scale: f32) -> Result<Vec<u8>, PlotError> {
-    let options = Options {
-        fontdb: fonts(),
-        font_family: "DejaVu Sans".into(),
-        ..Options::default()
-    };
+    let options =
+        Options { fontdb: fonts(), font_family: "DejaVu Sans".into(), ..Options::default() };
     let tree = Tree::from_str(svg, &options)?;
     let size = tree.size();
-    let (width, height) = (
-        (size.width() * scale).ceil(),
-        (size.height() * scale).ceil(),
-    );
+    let (width, height) = ((size.width() * scale).ceil(), (size.height() * scale).ceil());
     let fits = |side: f32| (1.0..=LARGEST).contains(&side);
     let pixmap = (fits(width) && fits(height)).then(|| Pixmap::new(width as u32, height as u32));
-    let mut pixmap = pixmap
-        .flatten()
-        .ok_or(PlotError::PictureSize { width, height })?;
-    resvg::render(
-        &tree,
-        Transform::from_scale(scale, scale),
-        &mut pixmap.as_mut(),
-    );
+    let mut pixmap = pixmap.flatten().ok_or(PlotError::PictureSize { width, height })?;
+    resvg::render(&tree, Transform::from_scale(scale, scale), &mut pixmap.as_mut());
     pixmap.encode_png().map_err(|e| PlotError::Draw(e.into()))
 }
 

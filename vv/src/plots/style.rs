@@ -75,10 +75,7 @@ pub const THEME: [(&str, u32, u32); 14] = [
 /// whose fall-back is the light value.
 pub fn themed(svg: &str) -> String {
     THEME.iter().fold(svg.to_owned(), |svg, (name, light, _)| {
-        svg.replace(
-            &format!("\"#{light:06X}\""),
-            &format!("\"var({name},#{light:06x})\""),
-        )
+        svg.replace(&format!("\"#{light:06X}\""), &format!("\"var({name},#{light:06x})\""))
     })
 }
 

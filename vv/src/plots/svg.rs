@@ -14,11 +14,7 @@ pub(super) fn finish(drawing: &str, (width, height): Point, caption: &str) -> St
         escape(caption)
     );
     let mut run: Option<(String, String)> = None;
-    for line in drawing
-        .lines()
-        .skip_while(|l| !l.starts_with("<svg"))
-        .skip(1)
-    {
+    for line in drawing.lines().skip_while(|l| !l.starts_with("<svg")).skip(1) {
         let element = Element::read(line);
         match (&mut run, element) {
             (Some((style, data)), Some(e)) if *style == e.style => data.push_str(&e.data),
@@ -69,10 +65,7 @@ impl Element {
             })
         } else if line.starts_with("<polygon ") {
             let style = format!("fill=\"{}\"{opacity}", get("fill")?);
-            Some(Self {
-                style,
-                data: path(get("points")?, "z")?,
-            })
+            Some(Self { style, data: path(get("points")?, "z")? })
         } else if line.starts_with("<circle ") && get("stroke") == Some("none") {
             // A dot is a line of no length with round ends.
             let (ink, width) = (get("fill")?, 2 * get("r")?.parse::<u32>().ok()?);
@@ -107,9 +100,7 @@ fn path(points: &str, end: &str) -> Option<String> {
 }
 
 fn escape(text: &str) -> String {
-    text.replace('&', "&amp;")
-        .replace('<', "&lt;")
-        .replace('"', "&quot;")
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;")
 }
 
 #[cfg(test)]

@@ -31,10 +31,7 @@ impl Page<'_> {
     }
 
     fn picture(&self, id: &str) -> String {
-        self.figures
-            .get(id)
-            .map(|svg| themed(svg))
-            .unwrap_or_default()
+        self.figures.get(id).map(|svg| themed(svg)).unwrap_or_default()
     }
 
     fn class(&self, align: &Align) -> &'static str {
@@ -66,10 +63,5 @@ impl Page<'_> {
 pub fn html(report: &Report, figures: &BTreeMap<String, String>) -> Result<String, ReportError> {
     outline::check(report, figures)?;
     let chapters = outline::outline(report);
-    Ok(Page {
-        report,
-        chapters,
-        figures,
-    }
-    .render()?)
+    Ok(Page { report, chapters, figures }.render()?)
 }

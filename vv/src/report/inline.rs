@@ -73,11 +73,7 @@ pub(super) fn html(text: &str) -> String {
             Span::Math(tex) => out.push_str(&math(tex, DisplayMode::Inline)),
             Span::Emphasis(text) => out.push_str(&format!("<em>{}</em>", html(text))),
             Span::Link(text, address) => {
-                out.push_str(&format!(
-                    "<a href=\"{}\">{}</a>",
-                    escape(address),
-                    html(text)
-                ));
+                out.push_str(&format!("<a href=\"{}\">{}</a>", escape(address), html(text)));
             }
         }
     }
@@ -127,32 +123,18 @@ pub(super) fn display(tex: &str) -> String {
 fn math(tex: &str, display_mode: DisplayMode) -> String {
     let storage = Storage::new();
     let events: Result<Vec<_>, ParserError> = Parser::new(tex, &storage).collect();
-    let config = RenderConfig {
-        display_mode,
-        annotation: Some(tex),
-        ..RenderConfig::default()
-    };
+    let config = RenderConfig { display_mode, annotation: Some(tex), ..RenderConfig::default() };
     let mut out = String::new();
     let drawn = events.is_ok_and(|events| {
         let events = events.into_iter().map(Ok::<_, ParserError>);
         push_mathml(&mut out, events, config).is_ok()
     });
-    if drawn {
-        out
-    } else {
-        format!("<code class=\"tex\">{}</code>", escape(tex))
-    }
+    if drawn { out } else { format!("<code class=\"tex\">{}</code>", escape(tex)) }
 }
 
 /// Text with the signs that mean something in HTML replaced.
 pub(super) fn escape(text: &str) -> String {
-    let named = [
-        ('&', "&amp;"),
-        ('<', "&lt;"),
-        ('>', "&gt;"),
-        ('"', "&quot;"),
-        ('\'', "&#39;"),
-    ];
+    let named = [('&', "&amp;"), ('<', "&lt;"), ('>', "&gt;"), ('"', "&quot;"), ('\'', "&#39;")];
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
         match named.iter().find(|(sign, _)| *sign == c) {
@@ -180,10 +162,7 @@ mod tests {
             markdown(text),
             "See *all of* `a\\|b` in [the code](https://example.org) \\<b\\>, 2 \\* 3 and \\$5 or \\*."
         );
-        assert_eq!(
-            plain(text),
-            "See all of a|b in the code <b>, 2 * 3 and $5 or *."
-        );
+        assert_eq!(plain(text), "See all of a|b in the code <b>, 2 * 3 and $5 or *.");
     }
 
     #[test]

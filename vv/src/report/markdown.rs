@@ -7,12 +7,8 @@ use super::outline::outline;
 /// The report as Markdown; figures are links to `figures/ID.svg`.
 pub fn markdown(report: &Report) -> String {
     let mut parts = vec![format!("# {}", rich(&report.title))];
-    let counts: Vec<_> = report
-        .summary
-        .counts
-        .iter()
-        .map(|(s, n)| format!("{n} {}", s.word()))
-        .collect();
+    let counts: Vec<_> =
+        report.summary.counts.iter().map(|(s, n)| format!("{n} {}", s.word())).collect();
     parts.extend([&report.subtitle, &report.summary.text].map(|text| rich(text)));
     parts.push(if counts.is_empty() {
         String::new()
@@ -21,17 +17,9 @@ pub fn markdown(report: &Report) -> String {
     });
     for chapter in outline(report) {
         let marks = "#".repeat((chapter.depth + 2).min(6));
-        let (anchor, title) = (
-            anchor("", &chapter.section.id),
-            rich(&chapter.section.title),
-        );
+        let (anchor, title) = (anchor("", &chapter.section.id), rich(&chapter.section.title));
         parts.push(format!("{marks} {anchor}{} {title}", chapter.number));
-        parts.extend(
-            chapter
-                .blocks
-                .iter()
-                .map(|(number, content)| block(*number, content)),
-        );
+        parts.extend(chapter.blocks.iter().map(|(number, content)| block(*number, content)));
     }
     parts.retain(|part| !part.is_empty());
     parts.join("\n\n") + "\n"
@@ -41,10 +29,7 @@ fn block(number: usize, block: &Block) -> String {
     match block {
         Block::Paragraph(text) => rich(text),
         Block::Equation { tex, number } => {
-            let tag = number
-                .as_ref()
-                .map(|n| format!(" \\tag{{{n}}}"))
-                .unwrap_or_default();
+            let tag = number.as_ref().map(|n| format!(" \\tag{{{n}}}")).unwrap_or_default();
             format!("$$\n{}{tag}\n$$", tex.trim())
         }
         Block::Table(content) => table(number, content),
@@ -73,13 +58,10 @@ fn block(number: usize, block: &Block) -> String {
 }
 
 fn table(number: usize, table: &Table) -> String {
-    let head = table
-        .columns
-        .iter()
-        .map(|column| match column.unit.as_str() {
-            "" => rich(&column.name),
-            unit => format!("{} / {}", rich(&column.name), rich(unit)),
-        });
+    let head = table.columns.iter().map(|column| match column.unit.as_str() {
+        "" => rich(&column.name),
+        unit => format!("{} / {}", rich(&column.name), rich(unit)),
+    });
     let align = table.columns.iter().map(|column| match column.align {
         Align::Left => ":--".to_owned(),
         Align::Center => ":-:".to_owned(),

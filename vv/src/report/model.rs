@@ -44,12 +44,7 @@ pub struct Section {
 impl Section {
     /// A section without parts.
     pub fn new(id: impl Into<String>, title: impl Into<String>, blocks: Vec<Block>) -> Self {
-        Self {
-            id: id.into(),
-            title: title.into(),
-            blocks,
-            subsections: Vec::new(),
-        }
+        Self { id: id.into(), title: title.into(), blocks, subsections: Vec::new() }
     }
 }
 
@@ -153,19 +148,12 @@ pub struct Column {
 impl Column {
     /// A left-aligned column of words.
     pub fn text(name: impl Into<String>) -> Self {
-        Self {
-            name: name.into(),
-            ..Self::default()
-        }
+        Self { name: name.into(), ..Self::default() }
     }
 
     /// A right-aligned column of numbers.
     pub fn number(name: impl Into<String>, unit: impl Into<String>) -> Self {
-        Self {
-            name: name.into(),
-            unit: unit.into(),
-            align: Align::Right,
-        }
+        Self { name: name.into(), unit: unit.into(), align: Align::Right }
     }
 }
 
@@ -195,37 +183,22 @@ pub struct Cell {
 impl Cell {
     /// A cell of words.
     pub fn text(text: impl Into<String>) -> Self {
-        Self {
-            text: text.into(),
-            ..Self::default()
-        }
+        Self { text: text.into(), ..Self::default() }
     }
 
     /// A number, shown to `digits` significant digits.
     pub fn number(value: f64, digits: usize) -> Self {
-        Self {
-            text: sig(value, digits),
-            value: Some(value),
-            status: None,
-        }
+        Self { text: sig(value, digits), value: Some(value), status: None }
     }
 
     /// A whole number, shown in full.
     pub fn count(value: u64) -> Self {
-        Self {
-            text: value.to_string(),
-            value: Some(value as f64),
-            status: None,
-        }
+        Self { text: value.to_string(), value: Some(value as f64), status: None }
     }
 
     /// A verdict by itself.
     pub fn verdict(status: Status) -> Self {
-        Self {
-            text: status.word().into(),
-            value: None,
-            status: Some(status),
-        }
+        Self { text: status.word().into(), value: None, status: Some(status) }
     }
 
     /// The cell with a verdict.

@@ -10,11 +10,7 @@ pub fn sig(value: f64, digits: usize) -> String {
         return "0".into();
     }
     if !value.is_finite() {
-        return if value.is_nan() {
-            "NaN".into()
-        } else {
-            signed(value, "∞".into())
-        };
+        return if value.is_nan() { "NaN".into() } else { signed(value, "∞".into()) };
     }
     let decimals = digits.clamp(1, 17) - 1;
     // Rounding first: 9.9996 to four digits is 10.00.
@@ -23,10 +19,7 @@ pub fn sig(value: f64, digits: usize) -> String {
     let exponent: i32 = exponent.parse().unwrap_or(0);
     let text = if (-4..6).contains(&exponent) {
         let number: f64 = rounded.parse().unwrap_or(value.abs());
-        format!(
-            "{number:.*}",
-            usize::try_from(decimals as i32 - exponent).unwrap_or(0)
-        )
+        format!("{number:.*}", usize::try_from(decimals as i32 - exponent).unwrap_or(0))
     } else {
         format!("{mantissa}×10{}", superscript(exponent))
     };
@@ -34,11 +27,7 @@ pub fn sig(value: f64, digits: usize) -> String {
 }
 
 fn signed(value: f64, text: String) -> String {
-    if value < 0.0 {
-        format!("−{text}")
-    } else {
-        text
-    }
+    if value < 0.0 { format!("−{text}") } else { text }
 }
 
 #[cfg(test)]

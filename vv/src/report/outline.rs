@@ -44,12 +44,7 @@ fn walk<'a>(
         };
         let blocks = section.blocks.iter().map(&mut count).collect();
         let inner = format!("{number}.");
-        chapters.push(Chapter {
-            number,
-            depth,
-            section,
-            blocks,
-        });
+        chapters.push(Chapter { number, depth, section, blocks });
         walk(&section.subsections, &inner, depth + 1, counts, chapters);
     }
 }
@@ -71,11 +66,7 @@ pub(super) fn check(
             match block {
                 Block::Table(table) => {
                     claim("table", &table.id)?;
-                    if table
-                        .rows
-                        .iter()
-                        .any(|row| row.len() != table.columns.len())
-                    {
+                    if table.rows.iter().any(|row| row.len() != table.columns.len()) {
                         return Err(ReportError::Ragged(table.id.clone()));
                     }
                 }
@@ -89,10 +80,7 @@ pub(super) fn check(
             }
         }
     }
-    figures
-        .keys()
-        .find(|id| !valid(id))
-        .map_or(Ok(()), |id| Err(ReportError::Id(id.clone())))
+    figures.keys().find(|id| !valid(id)).map_or(Ok(()), |id| Err(ReportError::Id(id.clone())))
 }
 
 /// Whether an id is fit for file names and anchors on every system.

@@ -7,10 +7,7 @@ use super::model::{Status, Table};
 /// in which cells carry verdicts beside their text is followed by one with the verdicts.
 pub fn csv(table: &Table) -> String {
     let judged = |column: usize| {
-        table
-            .rows
-            .iter()
-            .any(|row| row.get(column).is_some_and(|c| c.remark().is_some()))
+        table.rows.iter().any(|row| row.get(column).is_some_and(|c| c.remark().is_some()))
     };
     let judged: Vec<bool> = (0..table.columns.len()).map(judged).collect();
     let with_verdict = |(i, text, verdict): (usize, String, String)| {
@@ -19,16 +16,10 @@ pub fn csv(table: &Table) -> String {
     };
     let head = table.columns.iter().enumerate().map(|(i, column)| {
         let (name, unit) = (plain(&column.name), plain(&column.unit));
-        let head = if unit.is_empty() {
-            name.clone()
-        } else {
-            format!("{name} ({unit})")
-        };
+        let head = if unit.is_empty() { name.clone() } else { format!("{name} ({unit})") };
         (i, head, format!("{name} verdict"))
     });
-    let mut writer = ::csv::WriterBuilder::new()
-        .flexible(true)
-        .from_writer(Vec::new());
+    let mut writer = ::csv::WriterBuilder::new().flexible(true).from_writer(Vec::new());
     // Writing to memory cannot fail.
     let _ = writer.write_record(head.flat_map(with_verdict));
     for row in &table.rows {
@@ -44,9 +35,5 @@ pub fn csv(table: &Table) -> String {
 /// The shortest text that reads back as the same number.
 fn number(value: f64) -> String {
     let plain = value == 0.0 || (1e-4..1e15).contains(&value.abs()) || !value.is_finite();
-    if plain {
-        value.to_string()
-    } else {
-        format!("{value:e}")
-    }
+    if plain { value.to_string() } else { format!("{value:e}") }
 }

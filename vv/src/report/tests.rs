@@ -15,10 +15,7 @@ fn table() -> Table {
         columns: vec![
             Column::text("case"),
             Column::number("$L_1$", "kg/m³"),
-            Column {
-                align: Align::Center,
-                ..Column::text("verdict")
-            },
+            Column { align: Align::Center, ..Column::text("verdict") },
         ],
         rows: vec![
             vec![
@@ -26,31 +23,18 @@ fn table() -> Table {
                 Cell::number(0.044_812_3, 4),
                 Cell::verdict(Status::Pass),
             ],
-            vec![
-                "a|b, \"c\"".into(),
-                Cell::number(1.3e-15, 2).status(Status::Fail),
-                "".into(),
-            ],
+            vec!["a|b, \"c\"".into(), Cell::number(1.3e-15, 2).status(Status::Fail), "".into()],
         ],
     }
 }
 
 fn report() -> Report {
-    let figure = Block::Figure {
-        id: "noh".into(),
-        caption: "Noh & exact".into(),
-    };
+    let figure = Block::Figure { id: "noh".into(), caption: "Noh & exact".into() };
     let mut noh = Section::new("noh", "Noh", vec![Block::Table(table()), figure]);
-    let equation = Block::Equation {
-        tex: "p = (\\gamma - 1) \\rho e".into(),
-        number: Some("1".into()),
-    };
-    let callout = Block::Callout {
-        kind: Status::Warn,
-        text: "Look at `x`.".into(),
-    };
-    noh.subsections
-        .push(Section::new("gas", "Gas", vec![equation, callout]));
+    let equation =
+        Block::Equation { tex: "p = (\\gamma - 1) \\rho e".into(), number: Some("1".into()) };
+    let callout = Block::Callout { kind: Status::Warn, text: "Look at `x`.".into() };
+    noh.subsections.push(Section::new("gas", "Gas", vec![equation, callout]));
     Report {
         title: "Verification <report>".into(),
         subtitle: "preset *default*".into(),
@@ -149,30 +133,15 @@ fn contradictions_are_errors() {
         ..Report::default()
     };
     let none = BTreeMap::new();
-    let missing = with(Block::Figure {
-        id: "x".into(),
-        caption: String::new(),
-    });
-    assert!(matches!(
-        html(&missing, &none),
-        Err(ReportError::MissingFigure(_))
-    ));
-    let escaping = with(Block::Table(Table {
-        id: "../x".into(),
-        ..Table::default()
-    }));
+    let missing = with(Block::Figure { id: "x".into(), caption: String::new() });
+    assert!(matches!(html(&missing, &none), Err(ReportError::MissingFigure(_))));
+    let escaping = with(Block::Table(Table { id: "../x".into(), ..Table::default() }));
     assert!(matches!(html(&escaping, &none), Err(ReportError::Id(_))));
-    let ragged = with(Block::Table(Table {
-        columns: vec![],
-        ..table()
-    }));
+    let ragged = with(Block::Table(Table { columns: vec![], ..table() }));
     assert!(matches!(html(&ragged, &none), Err(ReportError::Ragged(_))));
     let mut twice = with(Block::Table(table()));
     twice.sections[0].blocks.push(Block::Table(table()));
-    assert!(matches!(
-        html(&twice, &none),
-        Err(ReportError::Duplicate(_))
-    ));
+    assert!(matches!(html(&twice, &none), Err(ReportError::Duplicate(_))));
 }
 
 #[test]
@@ -189,13 +158,9 @@ fn a_new_report_replaces_the_old_and_nothing_else() {
     write(&report(), &figures(), &dir).unwrap();
     assert!(!dir.join("figures/old.svg").exists() && !dir.join("figures/old.png").exists());
     assert!(!dir.join(".report-partial").exists());
-    for file in [
-        "index.html",
-        "report.md",
-        "figures/noh.png",
-        "figures/mine.svg",
-        "tables/norms.csv",
-    ] {
+    for file in
+        ["index.html", "report.md", "figures/noh.png", "figures/mine.svg", "tables/norms.csv"]
+    {
         assert!(dir.join(file).exists(), "{file}");
     }
 }
@@ -216,12 +181,7 @@ fn refusals_name_path_and_cause() {
 #[test]
 fn a_read_only_file_system_refuses() {
     let error = write(&report(), &figures(), "/proc/whipple".as_ref()).unwrap_err();
-    assert!(
-        error
-            .to_string()
-            .starts_with("cannot create the folder `/proc/whipple"),
-        "{error}"
-    );
+    assert!(error.to_string().starts_with("cannot create the folder `/proc/whipple"), "{error}");
 }
 
 #[test]

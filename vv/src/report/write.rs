@@ -49,10 +49,7 @@ fn render(
     files.insert("report.md".to_owned(), markdown(report).into_bytes());
     for (id, svg) in figures {
         let png = svg_to_png(svg, PNG_SCALE);
-        let png = png.map_err(|source| ReportError::Picture {
-            id: id.clone(),
-            source,
-        })?;
+        let png = png.map_err(|source| ReportError::Picture { id: id.clone(), source })?;
         files.insert(format!("figures/{id}.png"), png);
         files.insert(format!("figures/{id}.svg"), svg.clone().into_bytes());
     }
@@ -71,19 +68,13 @@ fn fill(stage: &Path, files: &BTreeMap<String, Vec<u8>>) -> Result<(), ReportErr
     for folder in ["figures", "tables"] {
         create(&stage.join(folder))?;
     }
-    files
-        .iter()
-        .try_for_each(|(name, bytes)| save(&stage.join(name), bytes))
+    files.iter().try_for_each(|(name, bytes)| save(&stage.join(name), bytes))
 }
 
 /// Moves the files from the stage to their places.
 fn place(stage: &Path, dir: &Path, files: &BTreeMap<String, Vec<u8>>) -> Result<(), ReportError> {
     let old = manifest(dir)?;
-    let new: BTreeSet<String> = files
-        .keys()
-        .filter(|name| *name != INDEX)
-        .cloned()
-        .collect();
+    let new: BTreeSet<String> = files.keys().filter(|name| *name != INDEX).cloned().collect();
     for folder in ["figures", "tables"] {
         create(&dir.join(folder))?;
     }
@@ -162,9 +153,5 @@ fn sync(dir: &Path) -> Result<(), ReportError> {
 
 fn io_error(action: &'static str, path: &Path) -> impl FnOnce(io::Error) -> ReportError {
     let path = path.to_owned();
-    move |source| ReportError::Io {
-        action,
-        path,
-        source,
-    }
+    move |source| ReportError::Io { action, path, source }
 }

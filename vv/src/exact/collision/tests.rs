@@ -3,12 +3,7 @@ use super::*;
 use proptest::prelude::*;
 
 fn block(length: f64, density: f64, wave_speed: f64, velocity: f64) -> Block {
-    Block {
-        length,
-        density,
-        wave_speed,
-        velocity,
-    }
+    Block { length, density, wave_speed, velocity }
 }
 
 #[test]
@@ -16,14 +11,8 @@ fn equal_blocks_exchange_their_velocities() {
     let result = collide(block(2.0, 3.0, 5.0, 0.7), block(2.0, 3.0, 5.0, 0.0)).unwrap();
     assert!(result.left_velocity.abs() < 1e-14);
     assert!((result.right_velocity - 0.7).abs() < 1e-14);
-    assert!(
-        (result.contact_time - 4.0 / 5.0).abs() < 1e-12,
-        "one round trip"
-    );
-    assert!(
-        (result.peak_pressure - 0.5 * 15.0 * 0.7).abs() < 1e-12,
-        "z V/2"
-    );
+    assert!((result.contact_time - 4.0 / 5.0).abs() < 1e-12, "one round trip");
+    assert!((result.peak_pressure - 0.5 * 15.0 * 0.7).abs() < 1e-12, "z V/2");
 }
 
 /// Equal impedance: the shorter block stops, whichever moves (Saint-Venant).
@@ -55,29 +44,18 @@ impl Lattice {
     fn new(cells: usize, impedance: f64, velocity: f64) -> Self {
         let signal = |value: f64| VecDeque::from(vec![value; cells]);
         let (rightward, leftward) = (impedance * velocity, -impedance * velocity);
-        Self {
-            impedance,
-            rightward: signal(rightward),
-            leftward: signal(leftward),
-        }
+        Self { impedance, rightward: signal(rightward), leftward: signal(leftward) }
     }
 
     fn velocity(&self) -> f64 {
-        let sum: f64 = self
-            .rightward
-            .iter()
-            .zip(&self.leftward)
-            .map(|(r, l)| r - l)
-            .sum();
+        let sum: f64 = self.rightward.iter().zip(&self.leftward).map(|(r, l)| r - l).sum();
         sum / (2.0 * self.impedance * self.rightward.len() as f64)
     }
 
     /// Moves all signals by one cell, given the pressure at the left and at the right end.
     fn step(&mut self, left: f64, right: f64) {
-        let (at_right, at_left) = (
-            self.rightward.pop_back().unwrap(),
-            self.leftward.pop_front().unwrap(),
-        );
+        let (at_right, at_left) =
+            (self.rightward.pop_back().unwrap(), self.leftward.pop_front().unwrap());
         self.rightward.push_front(2.0 * left - at_left);
         self.leftward.push_back(2.0 * right - at_right);
     }
@@ -86,13 +64,7 @@ impl Lattice {
 /// Unequal impedances and lengths against the exact method of characteristics on a lattice.
 #[test]
 fn agrees_with_the_method_of_characteristics() {
-    for (n_1, n_2, z) in [
-        (3, 5, 2.0),
-        (5, 3, 2.0),
-        (4, 4, 0.3),
-        (2, 9, 0.5),
-        (7, 3, 5.0),
-    ] {
+    for (n_1, n_2, z) in [(3, 5, 2.0), (5, 3, 2.0), (4, 4, 0.3), (2, 9, 0.5), (7, 3, 5.0)] {
         let mut a = Lattice::new(n_1, z, 1.0);
         let mut b = Lattice::new(n_2, 1.0, 0.0);
         let (mut gap, mut contact) = (0.0_f64, 0);
@@ -106,23 +78,11 @@ fn agrees_with_the_method_of_characteristics() {
             b.step(pressure, 0.0);
         }
         assert!(gap > 10.0, "parted");
-        let result = collide(
-            block(n_1 as f64, z, 1.0, 1.0),
-            block(n_2 as f64, 1.0, 1.0, 0.0),
-        )
-        .unwrap();
-        assert!(
-            (result.left_velocity - a.velocity()).abs() < 1e-11,
-            "{n_1} {n_2} {z}"
-        );
-        assert!(
-            (result.right_velocity - b.velocity()).abs() < 1e-11,
-            "{n_1} {n_2} {z}"
-        );
-        assert!(
-            (result.contact_time - f64::from(contact)).abs() < 1e-9,
-            "{n_1} {n_2} {z}"
-        );
+        let result =
+            collide(block(n_1 as f64, z, 1.0, 1.0), block(n_2 as f64, 1.0, 1.0, 0.0)).unwrap();
+        assert!((result.left_velocity - a.velocity()).abs() < 1e-11, "{n_1} {n_2} {z}");
+        assert!((result.right_velocity - b.velocity()).abs() < 1e-11, "{n_1} {n_2} {z}");
+        assert!((result.contact_time - f64::from(contact)).abs() < 1e-9, "{n_1} {n_2} {z}");
     }
 }
 
@@ -130,10 +90,7 @@ fn agrees_with_the_method_of_characteristics() {
 fn refuses_what_does_not_collide() {
     let still = block(1.0, 1.0, 1.0, 0.0);
     assert_eq!(collide(still, still), Err(CollisionError::NoApproach));
-    assert!(matches!(
-        collide(block(-1.0, 1.0, 1.0, 1.0), still),
-        Err(CollisionError::Input(_))
-    ));
+    assert!(matches!(collide(block(-1.0, 1.0, 1.0, 1.0), still), Err(CollisionError::Input(_))));
 }
 
 proptest! {

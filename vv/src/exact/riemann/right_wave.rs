@@ -13,10 +13,7 @@ pub(super) struct RightWave {
 
 impl RightWave {
     pub(super) fn new(gas: Gas) -> Self {
-        Self {
-            gas,
-            sound_speed: gas.sound_speed(),
-        }
+        Self { gas, sound_speed: gas.sound_speed() }
     }
 
     fn is_shock(&self, p: f64) -> bool {
@@ -26,40 +23,23 @@ impl RightWave {
     /// `ln(p / p_gas)`, accurate for weak and for strong waves.
     fn log_ratio(&self, p: f64) -> f64 {
         let change = (p - self.gas.pressure) / self.gas.pressure;
-        if change.abs() < 0.5 {
-            change.ln_1p()
-        } else {
-            (p / self.gas.pressure).ln()
-        }
+        if change.abs() < 0.5 { change.ln_1p() } else { (p / self.gas.pressure).ln() }
     }
 
     /// Mass flux through a shock with pressure `p` behind it, `rho (D - u)` (Toro 4.20).
     fn mass_flux(&self, p: f64) -> f64 {
-        let Gas {
-            density,
-            pressure,
-            gamma,
-            ..
-        } = self.gas;
+        let Gas { density, pressure, gamma, .. } = self.gas;
         (0.5 * density * ((gamma + 1.0) * p + (gamma - 1.0) * pressure)).sqrt()
     }
 
     /// Velocity behind the wave minus velocity ahead of it, if the pressure behind it is `p`, and
     /// the derivative with respect to `p` (Toro 4.6, 4.7 and 4.37).
     pub(super) fn velocity_change(&self, p: f64) -> (f64, f64) {
-        let Gas {
-            density,
-            pressure,
-            gamma,
-            ..
-        } = self.gas;
+        let Gas { density, pressure, gamma, .. } = self.gas;
         if self.is_shock(p) {
             let flux = self.mass_flux(p);
             let change = (p - pressure) / flux;
-            (
-                change,
-                (1.0 - 0.25 * (gamma + 1.0) * density * change / flux) / flux,
-            )
+            (change, (1.0 - 0.25 * (gamma + 1.0) * density * change / flux) / flux)
         } else {
             let exponent = 0.5 * (gamma - 1.0) / gamma;
             let growth = (exponent * self.log_ratio(p)).exp_m1();
@@ -70,23 +50,14 @@ impl RightWave {
 
     /// State behind the wave, but for its velocity (Toro 4.50 and 4.53).
     pub(super) fn star(&self, p: f64) -> Gas {
-        let Gas {
-            density,
-            pressure,
-            gamma,
-            ..
-        } = self.gas;
+        let Gas { density, pressure, gamma, .. } = self.gas;
         let density = if self.is_shock(p) {
             let (strong, weak) = (gamma + 1.0, gamma - 1.0);
             density * (strong * p + weak * pressure) / (weak * p + strong * pressure)
         } else {
             density * (self.log_ratio(p) / gamma).exp()
         };
-        Gas {
-            density,
-            pressure: p,
-            ..self.gas
-        }
+        Gas { density, pressure: p, ..self.gas }
     }
 
     /// Velocity `u - 2 c/(gamma - 1)` of the edge of gas that expands into vacuum (Toro 4.76);
@@ -104,25 +75,15 @@ impl RightWave {
         if self.gas.is_vacuum() {
             return None;
         }
-        let Gas {
-            density, velocity, ..
-        } = self.gas;
+        let Gas { density, velocity, .. } = self.gas;
         Some(if self.is_shock(p) {
-            Wave::Shock {
-                speed: velocity + self.mass_flux(p) / density,
-            }
+            Wave::Shock { speed: velocity + self.mass_flux(p) / density }
         } else if p > 0.0 {
             let star = self.star(p);
             let tail = velocity + self.velocity_change(p).0 + star.sound_speed();
-            Wave::Rarefaction {
-                head: velocity + self.sound_speed,
-                tail,
-            }
+            Wave::Rarefaction { head: velocity + self.sound_speed, tail }
         } else {
-            Wave::Rarefaction {
-                head: velocity + self.sound_speed,
-                tail: self.escape_velocity(),
-            }
+            Wave::Rarefaction { head: velocity + self.sound_speed, tail: self.escape_velocity() }
         })
     }
 
@@ -132,10 +93,7 @@ impl RightWave {
         match self.wave(p) {
             Some(wave) if xi <= wave.head() => {
                 if p > 0.0 && xi <= wave.tail() {
-                    Gas {
-                        velocity: edge,
-                        ..self.star(p)
-                    }
+                    Gas { velocity: edge, ..self.star(p) }
                 } else {
                     let ahead = self.gas.velocity + self.sound_speed - xi;
                     self.fan(
@@ -151,12 +109,7 @@ impl RightWave {
     /// State inside the rarefaction where the sound speed is `ratio` times that ahead of it, by
     /// the isentropic relations and the invariant `u - 2c/(gamma - 1)` (Toro 4.56 and 4.63).
     fn fan(&self, ratio: f64) -> Gas {
-        let Gas {
-            density,
-            velocity,
-            pressure,
-            gamma,
-        } = self.gas;
+        let Gas { density, velocity, pressure, gamma } = self.gas;
         let ratio = if ratio > 0.0 { ratio } else { 0.0 };
         let power = 2.0 / (gamma - 1.0);
         Gas {
@@ -173,12 +126,7 @@ impl RightWave {
     /// The mass between the contact and the ray `xi` is `rho (xi - u) t`, which for the particle
     /// equals `rho_gas label`. In the fan `xi - u = c`, so `rho c` fixes the sound speed.
     pub(super) fn particle(&self, label: f64, star: Option<(f64, f64)>) -> f64 {
-        let Gas {
-            density,
-            velocity,
-            gamma,
-            ..
-        } = self.gas;
+        let Gas { density, velocity, gamma, .. } = self.gas;
         let shock = |p: f64| self.mass_flux(p) / density;
         let front = match star {
             Some((p, _)) if self.is_shock(p) => shock(p),
