@@ -15,6 +15,13 @@ impl Ends {
         Self(boundaries)
     }
 
+    /// The particles that are held where they are.
+    pub(crate) fn held(&self, chain: &Chain) -> impl Iterator<Item = usize> + use<> {
+        let real = chain.real();
+        let ends = [(self.0.left, real.start), (self.0.right, real.end - 1)];
+        ends.into_iter().filter(|(kind, _)| *kind == Boundary::Fixed).map(|(_, i)| i)
+    }
+
     /// Applies the ends to the forces and returns the force that they exert.
     pub(crate) fn load<R: Copy + AddAssign>(&self, chain: &Chain, tally: &mut [Tally<R>]) -> f64 {
         let real = chain.real();

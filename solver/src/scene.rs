@@ -175,6 +175,16 @@ impl Profile {
         }
     }
 
+    /// A value that it nowhere falls below in a body from `from` to `to`.
+    fn lowest(self, (from, to): (f64, f64)) -> f64 {
+        match self {
+            Self::Cosine { mean, amplitude, .. } => mean - amplitude.abs(),
+            Self::Uniform(_) | Self::Linear { .. } => {
+                self.at(from, (from, to)).min(self.at(to, (from, to)))
+            }
+        }
+    }
+
     fn check(self, key: &str) -> Result<(), SceneError> {
         match self {
             Self::Uniform(value) => finite(key, value),
@@ -276,6 +286,10 @@ impl Scene {
     }
 
     fn check_materials(&self) -> Result<(), SceneError> {
+        if self.materials.len() > usize::from(u16::MAX) {
+            let (given, wanted) = (self.materials.len(), "65535 materials are the most");
+            return Err(SceneError::new("materials", given, wanted));
+        }
         for (k, material) in self.materials.iter().enumerate() {
             let key = format!("materials.{k}");
             positive(&format!("{key}.density"), material.density)?;
@@ -317,8 +331,12 @@ impl Scene {
             if body.to <= body.from {
                 return Err(SceneError::new(key("to"), body.to, "it must be right of `from`"));
             }
-            body.velocity.check(&key("velocity"))?;
-            body.energy.check(&key("energy"))?;
+            for (name, profile) in [("velocity", body.velocity), ("energy", body.energy)] {
+                profile.check(&key(name))?;
+                // A slope may be finite and still lead beyond the numbers.
+                finite(&key(name), profile.at(body.from, (body.from, body.to)))?;
+                finite(&key(name), profile.at(body.to, (body.from, body.to)))?;
+            }
             self.check_energy(body, index, &key("energy"))?;
             if let Some(left) = previous {
                 // Faces may touch; the last digit of a computed face is forgiven.
@@ -343,15 +361,12 @@ impl Scene {
 
     fn check_energy(&self, body: &Body, material: usize, key: &str) -> Result<(), SceneError> {
         let floor = self.materials[material].eos.cold_energy();
-        let ends = [body.from, body.to].map(|x| body.energy.at(x, (body.from, body.to)));
-        match ends.into_iter().find(|&u| u < floor) {
-            Some(u) => {
-                let wanted =
-                    format!("it may not be below {floor}, the cold energy of its material");
-                Err(SceneError::new(key, u, &wanted))
-            }
-            None => Ok(()),
+        let lowest = body.energy.lowest((body.from, body.to));
+        if lowest < floor {
+            let wanted = format!("it may not be below {floor}, the cold energy of its material");
+            return Err(SceneError::new(key, lowest, &wanted));
         }
+        Ok(())
     }
 
     fn check_boundary(&self, key: &str, b: Boundary, left: bool) -> Result<(), SceneError> {
@@ -423,5 +438,5 @@ fn not_negative(key: &str, value: f64) -> Result<(), SceneError> {
     if value.is_finite() && value >= 0.0 {
         return Ok(());
     }
-    Err(SceneError::new(key, value, "it may not be negative"))
+    Err(SceneError::new(key, value, "it must be a finite number, zero or more"))
 }

@@ -109,6 +109,9 @@ impl<P: Physics<1>> Simulation<P> {
             state.v[i] = body.velocity.at(state.x[i], (body.from, body.to));
             state.u[i] = body.energy.at(state.x[i], (body.from, body.to));
         }
+        for i in Ends::new(scene.boundaries).held(&chain) {
+            state.v[i] = 0.0;
+        }
         reflect(&chain, &mut state);
         laws.density.start(&chain, &state.x, &mut state.rho);
 
@@ -352,7 +355,8 @@ impl<P: Physics<1>> Simulation<P> {
                 let apart = i + 1 >= real.end || state.x[i + 1] > state.x[i];
                 // A comparison with NaN is false, so that NaN does not pass.
                 let finite = (state.x[i] + v + u).is_finite();
-                sound &= finite & apart & (u >= floor) & (state.rho.get(i) >= 0.0);
+                let rho = state.rho.get(i);
+                sound &= finite & apart & (u >= floor) & (rho >= 0.0) & rho.is_finite();
             }
             *out = ChunkTotals { totals, sound };
         };

@@ -99,16 +99,23 @@ impl Kernel {
         (i, chi): (usize, f64),
         mut visit: impl FnMut(f64),
     ) -> [u32; 2] {
-        let zeta = |j: usize| 2.0 * (x[j] - x[i]).abs() / (chain.length(i) + chain.length(j));
         let limit = self.spline.support / chi;
+        // No pair beyond this distance is in reach; nearer ones may be out of it, where sizes differ.
+        let range = 0.5 * limit * (chain.length(i) + chain.longest());
         let (mut first, mut last) = (i, i);
-        while last + 1 < x.len() && zeta(last + 1) < limit && chain.joined(i, last + 1) {
+        let mut look = |j: usize| {
+            let r = (x[j] - x[i]).abs();
+            let zeta = 2.0 * r / (chain.length(i) + chain.length(j));
+            if zeta < limit {
+                visit(zeta);
+            }
+            r < range
+        };
+        while last + 1 < x.len() && chain.joined(i, last + 1) && look(last + 1) {
             last += 1;
-            visit(zeta(last));
         }
-        while first > 0 && zeta(first - 1) < limit && chain.joined(i, first - 1) {
+        while first > 0 && chain.joined(i, first - 1) && look(first - 1) {
             first -= 1;
-            visit(zeta(first));
         }
         [first as u32, last as u32]
     }
@@ -169,16 +176,9 @@ impl DensityScheme<1> for Kernel {
         let n = x.len();
         self.reference = (0..n)
             .map(|i| {
-                let chi = chain.compression(i);
-                let own = |j: &usize| chain.joined(i, *j);
-                let left = (0..i).rev().take_while(own);
-                let right = (i + 1..n).take_while(own);
-                let weight = |j: usize| {
-                    self.spline.weight(chi * chain.contact_at(x, i.min(j), i.max(j)).zeta)
-                };
-                let near = |w: &f64| *w > 0.0;
-                1.0 + left.map(weight).take_while(near).sum::<f64>()
-                    + right.map(weight).take_while(near).sum::<f64>()
+                let (chi, mut sum) = (chain.compression(i), 1.0);
+                self.neighbours(chain, x, (i, chi), |zeta| sum += self.spline.weight(chi * zeta));
+                sum
             })
             .collect();
         self.stiffness = vec![0.0; n];

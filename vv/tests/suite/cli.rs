@@ -1,0 +1,226 @@
+//! The program as a user meets it: output, messages, exit codes, files.
+
+use std::process::{Command, Stdio};
+
+use serde_json::Value;
+
+use crate::common::{Said, said, whipple};
+
+/// A temporary folder to run in.
+fn folder() -> tempfile::TempDir {
+    tempfile::tempdir().expect("a temporary folder")
+}
+
+/// Wrong use: exit code 2, a message, and nothing on standard output.
+fn refusal(args: &[&str]) -> String {
+    let Said { code, out, err } = said(folder().path(), args);
+    assert_eq!(code, Some(2), "{args:?}: {out}{err}");
+    assert_eq!(out, "", "{args:?}");
+    assert_eq!(err.matches("error:").count(), 1, "one message: {err}");
+    assert!(!err.contains('\u{1b}') && !err.contains("panicked"), "{err}");
+    format!("$ whipple {}\n{}\n", args.join(" "), err.trim_end())
+}
+
+/// `list` names all cases.
+#[test]
+fn list_names_the_cases() {
+    let said = said(folder().path(), &["list"]);
+    assert_eq!((said.code, said.err.as_str()), (Some(0), ""));
+    insta::assert_snapshot!(said.out);
+}
+
+/// `run --json` prints one object with everything that a script needs.
+#[test]
+fn run_prints_json() {
+    for (args, preset) in [(&["--preset", "paper"][..], "paper"), (&[][..], "default")] {
+        let mut all = vec!["run", "noh", "--n", "20", "--json"];
+        all.extend(args);
+        let said = said(folder().path(), &all);
+        assert_eq!((said.code, said.err.as_str()), (Some(0), ""));
+        let value: Value = serde_json::from_str(&said.out).expect("JSON");
+        let text = |name: &str| value[name].as_str().unwrap_or_default().to_owned();
+        assert_eq!((text("case"), text("preset")), ("noh".into(), preset.into()));
+        assert_eq!(text("density"), if preset == "paper" { "nonholonomic" } else { "hybrid" });
+        assert_eq!((value["n"].as_u64(), value["threads"].as_u64()), (Some(20), Some(1)));
+        let (steps, particle_steps) = (value["steps"].as_u64(), value["particle_steps"].as_u64());
+        assert_eq!(steps.map(|s| 20 * s), particle_steps);
+        for name in ["cpu_seconds", "energy_drift", "momentum_drift"] {
+            assert!(value[name].is_f64(), "{name}");
+        }
+        for name in [
+            "velocity_rms",
+            "temperature_rms",
+            "velocity_l1",
+            "temperature_l1",
+            "velocity_l1_window",
+            "velocity_rms_phase",
+            "temperature_rms_phase",
+            "wall_heating",
+        ] {
+            assert!(value["norms"][name].is_f64(), "{name}");
+        }
+        let command = value["provenance"]["command"].as_str().expect("a command").to_owned();
+        assert!(command.starts_with("whipple run noh"), "{command}");
+    }
+}
+
+/// An override reaches the run and stands in its command.
+#[test]
+fn overrides_reach_the_run() {
+    let args = ["run", "noh", "--n", "20", "--json", "--set", "cfl=0.15", "--threads", "2"];
+    let (coarse, fine) = (said(folder().path(), &args[..5]), said(folder().path(), &args));
+    let [coarse, fine] =
+        [coarse, fine].map(|s| serde_json::from_str::<Value>(&s.out).expect("JSON"));
+    assert!(fine["steps"].as_u64() > coarse["steps"].as_u64().map(|s| s * 3 / 2));
+    assert_eq!(fine["threads"].as_u64(), Some(2));
+    assert!(fine["provenance"]["command"].as_str().expect("a command").contains("--set cfl=0.15"));
+}
+
+/// What is said to wrong input.
+#[test]
+fn wrong_input_is_refused() {
+    let refused = [
+        refusal(&["run", "nho"]),
+        refusal(&["run", "quux"]),
+        refusal(&["vv", "kolski"]),
+        refusal(&["run", "noh", "--n", "0"]),
+        refusal(&["run", "noh", "--n", "1"]),
+        refusal(&["run", "noh", "--n", "-5"]),
+        refusal(&["run", "noh", "--n", "1e12"]),
+        refusal(&["run", "noh", "--n", "1000000000000"]),
+        refusal(&["run", "noh", "--set", "materials.0.density=-1"]),
+        refusal(&["run", "noh", "--set", "cfl=nan"]),
+        refusal(&["run", "noh", "--set", "cfl"]),
+        refusal(&["run", "noh", "--set", "clf=0.1"]),
+        refusal(&["run", "noh", "--set", "heating=sideways"]),
+        refusal(&["run", "noh", "--set", "bodies.7.particles=3"]),
+        refusal(&["run", "noh", "--preset", "papr"]),
+        refusal(&["run", "noh", "--density", "sph"]),
+        refusal(&["run", "noh", "--variant", "sideways"]),
+        refusal(&["run", "noh", "--threads", "0"]),
+        refusal(&["run", "noh", "--threads", "99999"]),
+        refusal(&["run", "heat-chain", "--godunov"]),
+        refusal(&["run", "noh", "--godunov", "--preset", "paper"]),
+        refusal(&["vv", "noh", "--level", "slow"]),
+        refusal(&["report", "--out", "nowhere"]),
+        refusal(&["fly"]),
+    ];
+    insta::assert_snapshot!(refused.join("\n"));
+}
+
+/// A file where the folder of the results should be, found before anything runs.
+#[test]
+fn unwritable_folder_is_refused() {
+    let folder = folder();
+    std::fs::write(folder.path().join("taken"), "mine").expect("a file");
+    let mut text = String::new();
+    for args in
+        [&["run", "noh", "--n", "20", "--out", "taken"][..], &["vv", "noh", "--out", "taken/x"]]
+    {
+        let said = said(folder.path(), args);
+        assert_eq!((said.code, said.out.as_str()), (Some(2), ""));
+        text += &said.err;
+    }
+    assert_eq!(std::fs::read_to_string(folder.path().join("taken")).expect("the file"), "mine");
+    insta::assert_snapshot!(text, @r"
+    error: cannot make the folder taken: a file stands where a folder should be
+    error: cannot make the folder taken/x: a file stands where a folder should be
+    ");
+}
+
+/// A numerical failure: exit code 3, and who, what and when on standard error.
+#[test]
+fn numerical_failure_has_its_own_code() {
+    let folder = folder();
+    let args = ["run", "galilean-boost", "--preset", "paper", "--json", "--out", "out"];
+    let said = said(folder.path(), &args);
+    assert_eq!(said.code, Some(3));
+    assert!(said.err.starts_with("error: internal energy of particle "), "{}", said.err);
+    assert_eq!(said.err.lines().count(), 1);
+    let value: Value = serde_json::from_str(&said.out).expect("the record is printed all the same");
+    assert_eq!(value["outcome"]["failed"]["kind"], "internal energy");
+    assert!(folder.path().join("out/record.json").exists(), "and written");
+}
+
+/// `--out` writes the record, the scene, which can be read again, and the fields.
+#[test]
+fn results_are_written() {
+    let folder = folder();
+    let said = said(folder.path(), &["run", "noh", "--n", "20", "--out", "deep/out"]);
+    assert_eq!((said.code, said.err.as_str()), (Some(0), ""));
+    let read = |name: &str| {
+        std::fs::read_to_string(folder.path().join("deep/out").join(name))
+            .expect("a file that was written")
+    };
+    let record: whipple_vv::record::RunRecord =
+        serde_json::from_str(&read("record.json")).expect("a record");
+    let scene: whipple_solver::scene::Scene = toml::from_str(&read("scene.toml")).expect("a scene");
+    assert_eq!(Some(scene), record.scene);
+    let fields = read("profile.csv");
+    let head = fields.lines().next().expect("a head").to_owned();
+    assert!(head.contains("velocity") && head.contains("velocity_exact"), "{head}");
+    assert_eq!(fields.lines().count(), 21);
+    let entries = std::fs::read_dir(folder.path().join("deep/out")).expect("the folder").count();
+    assert_eq!(entries, 3, "no temporary file is left");
+}
+
+/// A full disk is said to be one, whether results go to a device or to standard output.
+#[cfg(target_os = "linux")]
+#[test]
+fn full_disk_is_reported() {
+    let full =
+        || std::fs::OpenOptions::new().write(true).open("/dev/full").expect("the full device");
+    let output = whipple(&["list"]).stdout(full()).output().expect("the program starts");
+    let said = Said::from(output);
+    assert_eq!(said.code, Some(2));
+    assert!(said.err.contains("No space left"), "{}", said.err);
+    assert!(!said.err.contains("panicked"));
+}
+
+/// A reader that goes away is no error, and nobody is there to be told.
+#[test]
+fn closed_pipe_is_no_error() {
+    for args in [
+        &["list"][..],
+        &["run", "noh", "--n", "20", "--json"],
+        &["completions", "bash"],
+        &["--help"],
+    ] {
+        let mut child = whipple(args)
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .expect("the program starts");
+        drop(child.stdout.take());
+        let said = Said::from(child.wait_with_output().expect("it ends"));
+        assert_eq!((said.code, said.err.as_str()), (Some(0), ""), "{args:?}");
+    }
+}
+
+/// Colours only where a terminal asks for them: never into a pipe.
+#[test]
+fn pipes_get_no_colours() {
+    for colour in [None, Some("1")] {
+        for args in
+            [&["--help"][..], &["run", "noh", "--preset", "papr"], &["run", "noh", "--n", "20"]]
+        {
+            let mut command = Command::new(env!("CARGO_BIN_EXE_whipple"));
+            command.args(args).env_remove("NO_COLOR");
+            if let Some(value) = colour {
+                command.env("NO_COLOR", value);
+            }
+            let said = Said::from(command.output().expect("the program starts"));
+            assert!(!said.out.contains('\u{1b}') && !said.err.contains('\u{1b}'), "{args:?}");
+        }
+    }
+}
+
+/// Completion scripts exist for the usual shells.
+#[test]
+fn completions_are_printed() {
+    for shell in ["bash", "zsh", "fish"] {
+        let said = said(folder().path(), &["completions", shell]);
+        assert_eq!(said.code, Some(0));
+        assert!(said.out.contains("whipple"), "{shell}");
+    }
+}

@@ -1,0 +1,87 @@
+//! Runs and processes that the tests share.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::process::{Command, Output};
+use std::sync::{Arc, LazyLock, Mutex, OnceLock};
+
+use whipple_solver::method::Preset;
+use whipple_vv::cases::{Case, find};
+use whipple_vv::record::{Outcome, RunKey, RunRecord, Scheme};
+use whipple_vv::run::{Request, Silent, run};
+use whipple_vv::suite::{command_of, scene_of};
+
+type Cell = Arc<OnceLock<RunRecord>>;
+
+/// Runs so far: a test that needs the run of another waits for it.
+static RUNS: LazyLock<Mutex<BTreeMap<RunKey, Cell>>> = LazyLock::new(Mutex::default);
+
+/// The case of a name that exists.
+pub fn case(id: &str) -> &'static dyn Case {
+    find(id).expect("a case of that name")
+}
+
+/// Key of a preset's own scheme.
+pub fn key(id: &str, preset: Preset, n: usize) -> RunKey {
+    RunKey::new(id, Scheme::preset(preset), n)
+}
+
+/// Record of a run, made once in all tests.
+pub fn record(key: &RunKey) -> RunRecord {
+    let cell = RUNS.lock().expect("no test panics here").entry(key.clone()).or_default().clone();
+    cell.get_or_init(|| fresh(key)).clone()
+}
+
+fn fresh(key: &RunKey) -> RunRecord {
+    let case = case(&key.case);
+    let request = Request {
+        key: key.clone(),
+        scene: scene_of(case, key),
+        threads: 1,
+        command: command_of(key),
+    };
+    run(case, request, &Silent).expect("a record").record
+}
+
+/// Record of a run that completes.
+pub fn completed(key: &RunKey) -> RunRecord {
+    let record = record(key);
+    assert_eq!(record.outcome, Outcome::Completed, "{key:?}");
+    record
+}
+
+/// A norm of a run that completes.
+pub fn norm(key: &RunKey, name: &str) -> f64 {
+    let record = completed(key);
+    *record.norms.get(name).unwrap_or_else(|| panic!("{key:?} has no norm {name}"))
+}
+
+/// The program with arguments.
+pub fn whipple(args: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_whipple"));
+    command.args(args).env("NO_COLOR", "1").env_remove("CLICOLOR_FORCE").env("COLUMNS", "100");
+    command
+}
+
+/// What the program printed, and its exit code.
+pub struct Said {
+    /// Exit code; none after a signal.
+    pub code: Option<i32>,
+    /// Standard output.
+    pub out: String,
+    /// Standard error.
+    pub err: String,
+}
+
+impl From<Output> for Said {
+    fn from(output: Output) -> Self {
+        let text = |bytes| String::from_utf8(bytes).expect("text is UTF-8");
+        Self { code: output.status.code(), out: text(output.stdout), err: text(output.stderr) }
+    }
+}
+
+/// Runs the program in a folder.
+pub fn said(folder: &Path, args: &[&str]) -> Said {
+    let mut command = whipple(args);
+    command.current_dir(folder).output().expect("the program starts").into()
+}

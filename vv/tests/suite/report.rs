@@ -1,0 +1,130 @@
+//! Records, verdicts and the report: complete, repeatable, and refused when tampered with.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use whipple_vv::claims::{Status, judge};
+use whipple_vv::record::Records;
+use whipple_vv::report::sig;
+
+use crate::common::{Said, said};
+
+/// The report of two fast cases.
+fn report() -> (tempfile::TempDir, Said) {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let said = said(
+        folder.path(),
+        &["vv", "heat-chain", "uniform-collapse", "--level", "quick", "--out", "r"],
+    );
+    (folder, said)
+}
+
+/// All files below a folder, with their contents.
+fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    let mut out = BTreeMap::new();
+    for entry in std::fs::read_dir(folder).expect("a folder") {
+        let path = entry.expect("an entry").path();
+        let name = path.file_name().expect("a name").to_string_lossy().into_owned();
+        if path.is_dir() {
+            out.extend(
+                files(&path).into_iter().map(|(below, text)| (format!("{name}/{below}"), text)),
+            );
+        } else {
+            out.insert(name, std::fs::read(&path).expect("a file"));
+        }
+    }
+    out
+}
+
+/// `vv` writes records, page, Markdown, tables and figures; `report` draws the same again to the
+/// byte; `report --check` agrees, and objects to a changed page.
+#[test]
+fn report_is_complete_and_repeatable() {
+    let (folder, ran) = report();
+    assert_eq!(ran.code, Some(0), "{}{}", ran.out, ran.err);
+    assert!(ran.out.contains("0 failed"), "{}", ran.out);
+    let out = folder.path().join("r");
+    let first = files(&out);
+    let with = |end: &str| first.keys().filter(|name| name.ends_with(end)).count();
+    assert!(
+        first.contains_key("index.html") && first.contains_key("report.md"),
+        "{:?}",
+        first.keys()
+    );
+    assert!(with(".svg") >= 1 && with(".csv") >= 1, "figures and tables: {:?}", first.keys());
+    assert_eq!(with(".json"), 3 * 2 + 3, "a record a run: {:?}", first.keys());
+    let page = String::from_utf8_lossy(&first["index.html"]);
+    assert!(page.contains("Heat along a chain") && page.contains("Uniform collapse"));
+    assert!(!page.contains("NaN"));
+
+    let again = said(folder.path(), &["report", "--out", "r"]);
+    assert_eq!(again.code, Some(0), "{}", again.err);
+    assert_eq!(files(&out), first, "byte for byte");
+    let check = said(folder.path(), &["report", "--check", "--out", "r"]);
+    assert_eq!((check.code, check.err.as_str()), (Some(0), ""));
+    assert_eq!(files(&out), first, "a check writes nothing");
+
+    std::fs::write(out.join("report.md"), "all is well").expect("a changed report");
+    let check = said(folder.path(), &["report", "--check", "--out", "r"]);
+    assert_eq!((check.code, check.out.as_str()), (Some(1), ""));
+    assert_eq!(check.err, "error: not what the records give: report.md\n");
+}
+
+/// A record that is cut, of another format, or with a wrong value is refused by name and place.
+#[test]
+fn broken_records_are_refused() {
+    let (folder, _) = report();
+    let path = folder.path().join("r/records/heat-chain_default_n16.json");
+    let whole = std::fs::read_to_string(&path).expect("a record");
+    let mut text = String::new();
+    for broken in [
+        whole[..whole.find("\"cpu_seconds\"").expect("a key")].to_owned(),
+        whole.replacen("\"schema\": 1", "\"schema\": 0", 1),
+        whole.replacen("\"threads\": 1", "\"threads\": \"one\"", 1),
+        String::new(),
+    ] {
+        assert_ne!(broken, whole);
+        std::fs::write(&path, broken).expect("a broken record");
+        let said = said(folder.path(), &["report", "--out", "r"]);
+        assert_eq!((said.code, said.out.as_str()), (Some(2), ""));
+        assert!(said.err.contains("heat-chain_default_n16.json"), "{}", said.err);
+        // The line depends on the length of the scene.
+        let said = said.err.split(" at line ").next().expect("a message").trim_end().to_owned();
+        text += &(said + "\n");
+    }
+    insta::assert_snapshot!(text);
+}
+
+/// A claim that does not hold fails the run, and a must claim sets the exit code.
+#[test]
+fn failed_claim_sets_the_exit_code() {
+    let (folder, _) = report();
+    let path = folder.path().join("r/records/heat-chain_default_n32.json");
+    let whole = std::fs::read_to_string(&path).expect("a record");
+    let mut record: serde_json::Value = serde_json::from_str(&whole).expect("JSON");
+    record["norms"]["rate_error"] = 0.5.into();
+    std::fs::write(&path, record.to_string()).expect("a record");
+    let said = said(folder.path(), &["report", "--out", "r"]);
+    assert_eq!(said.code, Some(1));
+    assert!(said.out.starts_with("FAILED  heat-chain: rate of decay"), "{}", said.out);
+}
+
+/// The verdicts of the heat chain as a table: values to one digit.
+#[test]
+fn verdicts_of_a_case() {
+    let (folder, _) = report();
+    let records = Records::read(&folder.path().join("r/records")).expect("records");
+    let case = crate::common::case("heat-chain");
+    let row = |v: whipple_vv::claims::Verdict| {
+        let bound = v.claim.wanted.text();
+        let (kind, weight) = (v.claim.kind.name(), v.claim.weight.name());
+        // Drifts are round-off, other than zero in their last digits only.
+        let value =
+            v.value.map_or("-".into(), |x| if x < 1e-12 { "round-off".into() } else { sig(x, 2) });
+        format!("{kind} | {weight} | {} | {value} | {bound} | {:?}\n", v.claim.what, v.status)
+    };
+    let table: String = judge(case.claims(), &records).into_iter().map(row).collect();
+    insta::assert_snapshot!(table);
+    let none = judge(case.claims(), &Records::default());
+    assert!(none.iter().all(|v| v.status == Status::Missing), "no record, no verdict");
+}
