@@ -18,6 +18,16 @@ pub struct Totals {
 }
 
 impl Totals {
+    /// A share of the mean specific energy in the frame of the centre of mass; without bound before
+    /// anything is known.
+    pub(crate) fn round_off(&self, share: f64) -> f64 {
+        if self.mass <= 0.0 {
+            return f64::INFINITY;
+        }
+        let drifting = 0.5 * self.momentum * self.momentum / self.mass;
+        share * (self.kinetic - drifting + self.internal) / self.mass
+    }
+
     /// Adds the sums of another group of particles.
     pub(crate) fn add(&mut self, other: &Self) {
         self.mass += other.mass;
@@ -63,10 +73,11 @@ impl Ledger {
         self.now = now;
         let before = self.initial.kinetic + self.initial.internal;
         let after = now.kinetic + now.internal + self.strain;
-        self.worst_energy = self.worst_energy.max((after - before - self.boundary_work).abs());
+        let error = (after - before - self.boundary_work).abs();
+        self.worst_energy = keep_nan(self.worst_energy, error);
         self.largest_work = self.largest_work.max(self.boundary_work.abs());
         let error = now.momentum - self.initial.momentum - self.boundary_impulse;
-        self.worst_momentum = self.worst_momentum.max(error.abs());
+        self.worst_momentum = keep_nan(self.worst_momentum, error.abs());
         self.largest_momentum = self.largest_momentum.max(now.momentum_scale);
     }
 
@@ -91,4 +102,9 @@ impl Ledger {
     pub fn mass_drift(&self) -> f64 {
         ((self.now.mass - self.initial.mass) / self.initial.mass).abs()
     }
+}
+
+/// The larger of two numbers, and NaN if the second is.
+fn keep_nan(so_far: f64, now: f64) -> f64 {
+    if now <= so_far { so_far } else { now }
 }

@@ -5,6 +5,7 @@ use std::ops::AddAssign;
 use crate::chain::Chain;
 use crate::forces::Tally;
 use crate::scene::{Boundaries, Boundary};
+use crate::timestep::{Limiter, Vote};
 
 /// The ends of a chain.
 #[derive(Debug, Clone, Copy)]
@@ -53,6 +54,22 @@ impl Ends {
                 inward * p
             }
         }
+    }
+
+    /// Time in which a pressure would push its particle over a spacing from rest.
+    pub(crate) fn vote<R>(&self, chain: &Chain, x: &[f64], tally: &[Tally<R>]) -> Vote {
+        let real = chain.real();
+        let (first, last) = (real.start, real.end - 1);
+        let mut vote = Vote::none(Limiter::Load);
+        for (kind, i, spacing) in [
+            (self.0.left, first, x[first + 1] - x[first]),
+            (self.0.right, last, x[last] - x[last - 1]),
+        ] {
+            if matches!(kind, Boundary::Pressure(_)) {
+                vote.consider((spacing * chain.mass(i) / tally[i].force.abs()).sqrt(), i);
+            }
+        }
+        vote
     }
 
     /// Power of the ends at the velocities of a step: walls and held particles do no work.

@@ -50,7 +50,7 @@ pub enum StepError {
     /// The internal energy fell below what the equation of state can represent.
     #[error(
         "internal energy of particle {particle} is {value:.3e} at t = {time:.6e}, below the floor \
-         {floor:.3e} of its equation of state: the heating of this method may depend on the frame"
+         {floor:.3e} of its equation of state"
     )]
     Energy {
         /// Index of the particle.

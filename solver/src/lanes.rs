@@ -137,6 +137,7 @@ impl Deals {
         bins: &mut Bins<'_, Tally<R>>,
         sums: &mut PairSums,
     ) {
+        let mut from_left = Tally::default();
         for k in 0..pairs.min(BLOCK) {
             let share = |side: usize, sign: f64| Tally {
                 force: sign * self.force[k],
@@ -144,15 +145,23 @@ impl Deals {
                 damping: self.damping[side][k],
                 rho_rate: R::of(self.rho_rate[side][k]),
             };
-            bins.add(first + k, share(0, -1.0));
-            bins.add(first + k + offset, share(1, 1.0));
-            sums.strain_power += self.strain_power[k];
+            // Each particle is on the right of one pair and then on the left of the next.
+            from_left += share(0, -1.0);
+            bins.add(first + k, from_left);
+            from_left = share(1, 1.0);
+            if offset > 1 {
+                bins.add(first + k + offset, from_left);
+                from_left = Tally::default();
+            }
             // The nearest pairs have the shortest times.
             if K::VOTES && offset == 1 {
                 let [by_sound, by_closing] = &mut sums.votes;
                 by_sound.consider(self.sound_squared[k], first + k);
                 by_closing.consider(self.closing[k], first + k);
             }
+        }
+        if offset == 1 {
+            bins.add(first + pairs, from_left);
         }
     }
 }

@@ -48,7 +48,9 @@ pub struct Boundaries {
 pub enum Boundary {
     /// Nothing.
     Free,
-    /// A rigid wall at rest at this position, modelled by mirror images of the particles.
+    /// A rigid wall at rest at this position, at the face of the outermost body, modelled by mirror
+    /// images of the particles. For a solid it is a symmetry plane: the body stays bonded to its
+    /// image.
     Mirror(f64),
     /// The outermost particle is held where it is.
     Fixed,
@@ -344,6 +346,12 @@ impl Scene {
                     let wanted = "bodies are listed from left to right and may not overlap";
                     return Err(SceneError::new(key("from"), body.from, wanted));
                 }
+                // Nodes of touching bodies would coincide.
+                if body.particle(0).0 <= left.particle(left.particles - 1).0 {
+                    let wanted =
+                        "its first particle must be right of the last one of the body before";
+                    return Err(SceneError::new(key("from"), body.from, wanted));
+                }
                 if body.interface == Interface::Joined && body.from > left.to + 1e-9 * left.cell() {
                     let wanted = "a joined body must touch the one on its left";
                     return Err(SceneError::new(key("from"), body.from, wanted));
@@ -377,15 +385,18 @@ impl Scene {
                 let key = format!("{key}.mirror");
                 finite(&key, wall)?;
                 let (first, last) = (&self.bodies[0], &self.bodies[self.bodies.len() - 1]);
-                let (outermost, outside) = if left {
-                    let x = first.particle(0).0;
-                    (x, wall >= x)
+                let (body, x, inward) = if left {
+                    (first, first.particle(0).0, 1.0)
                 } else {
-                    let x = last.particle(last.particles - 1).0;
-                    (x, wall <= x)
+                    (last, last.particle(last.particles - 1).0, -1.0)
                 };
-                if outside {
-                    let wanted = format!("the outermost particle is at {outermost}");
+                // Up to half a cell: the gas of the outermost particle reaches no further.
+                let distance = inward * (x - wall);
+                if !(distance > 0.0 && distance <= 0.5 * body.cell() * (1.0 + 1e-9)) {
+                    let wanted = format!(
+                        "a wall stands at the face of its body, within half a cell of the outermost \
+                         particle at {x}"
+                    );
                     return Err(SceneError::new(key, wall, &wanted));
                 }
                 Ok(())

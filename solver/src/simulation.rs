@@ -227,7 +227,8 @@ impl<P: Physics<1>> Simulation<P> {
         }
         // The sweep votes with the square of the time that sound takes, to save it the root.
         let sound = Vote { dt: votes[0].dt.sqrt(), ..votes[0] };
-        let voted = Vote::together(sound.min(votes[1]), damped).scaled(self.cfl);
+        let load = self.ends.vote(&self.chain, &self.state.x, &self.tally);
+        let voted = Vote::together(sound.min(votes[1]).min(load), damped).scaled(self.cfl);
         if voted.dt.is_nan() || voted.dt < self.smallest_step {
             return Err(StepError::TimeStep {
                 particle: self.label(voted.particle),
@@ -336,9 +337,7 @@ impl<P: Physics<1>> Simulation<P> {
     /// Sums the particles of the state and checks each.
     fn audit(&mut self) -> Totals {
         let (laws, chain, state) = (&self.laws, &self.chain, &self.state);
-        let total_mass = self.ledger.initial.mass;
-        let energy = self.ledger.initial.kinetic + self.ledger.initial.internal;
-        let cold = if total_mass > 0.0 { COLD * energy / total_mass } else { f64::INFINITY };
+        let cold = self.ledger.initial.round_off(COLD);
         let real = chain.real();
         let one = |c: usize, out: &mut ChunkTotals| {
             let (start, end) = (real.start.max(c * CHUNK), real.end.min((c + 1) * CHUNK));
@@ -352,11 +351,15 @@ impl<P: Physics<1>> Simulation<P> {
                 totals.momentum += m * v;
                 totals.momentum_scale += m * v.abs();
                 let floor = laws.eos[chain.material(i)].floor() - cold;
-                let apart = i + 1 >= real.end || state.x[i + 1] > state.x[i];
+                let apart = i + 1 >= state.x.len() || state.x[i + 1] > state.x[i];
                 // A comparison with NaN is false, so that NaN does not pass.
                 let finite = (state.x[i] + v + u).is_finite();
                 let rho = state.rho.get(i);
                 sound &= finite & apart & (u >= floor) & (rho >= 0.0) & rho.is_finite();
+            }
+            // The wall of the first particle; those of the others are their right neighbours.
+            if start == real.start && start > 0 {
+                sound &= state.x[start] > state.x[start - 1];
             }
             *out = ChunkTotals { totals, sound };
         };
@@ -378,8 +381,7 @@ impl<P: Physics<1>> Simulation<P> {
             return None;
         }
         let state = &self.state;
-        let energy = self.ledger.initial.kinetic + self.ledger.initial.internal;
-        let cold = COLD * energy / self.ledger.initial.mass;
+        let cold = self.ledger.initial.round_off(COLD);
         self.chain.real().find_map(|i| {
             let particle = self.label(i);
             let not_finite = [("position", state.x[i]), ("velocity", state.v[i])]
@@ -396,12 +398,12 @@ impl<P: Physics<1>> Simulation<P> {
             if state.u[i] < floor - cold {
                 return Some(StepError::Energy { particle, time, value: state.u[i], floor });
             }
-            let next = (i + 1 < self.chain.real().end).then(|| state.x[i + 1] - state.x[i])?;
-            (next <= 0.0).then_some(StepError::Crossed {
-                particle,
-                next: particle + 1,
-                time,
-                value: next,
+            // Images included: a particle may not pass its wall either.
+            let pair = [(i.wrapping_sub(1), i), (i, i + 1)];
+            pair.into_iter().filter(|&(a, b)| a < b && b < state.x.len()).find_map(|(a, b)| {
+                let value = state.x[b] - state.x[a];
+                let (particle, next) = (self.label(a), self.label(b));
+                (value <= 0.0).then_some(StepError::Crossed { particle, next, time, value })
             })
         })
     }
@@ -474,7 +476,11 @@ impl<P: Physics<1>> Simulation<P> {
             let bulk = |i: usize| self.laws.eos[self.chain.material(i)].bulk();
             0.5 * series(bulk(i), bulk(i + 1)) * stretch * stretch * contact.length
         };
-        (real.start..real.end - 1).map(energy).sum()
+        // Half of the segment to an image is of this world.
+        let [left, right] = self.chain.walled();
+        let before = if left { 0.5 * energy(real.start - 1) } else { 0.0 };
+        let behind = if right { 0.5 * energy(real.end - 1) } else { 0.0 };
+        before + (real.start..real.end - 1).map(energy).sum::<f64>() + behind
     }
 
     /// All fields of all particles.

@@ -52,12 +52,16 @@ impl<P: Physics<1>> Sweep<'_, P> {
                     let of = |k: usize| (Side { index: first + k, ..side }, eos);
                     // The form of the viscosity is named here, so that the compiler knows it and fills
                     // vector units.
-                    let look = |offset: usize, pairs: usize, deals: &mut Deals| match law.far() {
-                        Some(law) => self.lanes::<K>((&lanes, offset), pairs, law, deals, of),
-                        None => self.lanes::<K>((&lanes, offset), pairs, law.near(), deals, of),
-                    };
-                    look(1, pairs, &mut deals);
+                    match law.far() {
+                        Some(law) => {
+                            self.lanes::<K>((&lanes, 1, false), pairs, law, &mut deals, of)
+                        }
+                        None => {
+                            self.lanes::<K>((&lanes, 1, false), pairs, law.near(), &mut deals, of);
+                        }
+                    }
                     deals.settle::<K, RateOf<P>>((first, 1), pairs, bins, &mut sums);
+                    sums.strain_power += self.strain_power(&deals, first, pairs);
                     let in_range = |offset: usize| {
                         let pairs = pairs.min((last + 1 - first).saturating_sub(offset));
                         let near = |k: &usize| lanes.x[k + offset] - lanes.x[*k] < side.l * support;
@@ -69,17 +73,19 @@ impl<P: Physics<1>> Sweep<'_, P> {
                             break;
                         }
                         reached += 1;
-                        look(reached, pairs, &mut deals);
+                        let far = (&lanes, reached, false);
+                        self.lanes::<K>(far, pairs, law, &mut deals, of);
                         deals.settle::<K, RateOf<P>>((first, reached), pairs, bins, &mut sums);
                         sums.pairs += near;
                     }
                 }
                 None => {
-                    self.lanes::<K>((&lanes, 1), pairs, law, &mut deals, |k| {
+                    self.lanes::<K>((&lanes, 1, true), pairs, law, &mut deals, |k| {
                         let side = self.chain.side(first + k, 0.0, 0.0);
                         (side, self.laws.eos[usize::from(side.material)])
                     });
                     deals.settle::<K, RateOf<P>>((first, 1), pairs, bins, &mut sums);
+                    sums.strain_power += self.strain_power(&deals, first, pairs);
                 }
             }
             sums.pairs += pairs as u64;
@@ -127,26 +133,29 @@ impl<P: Physics<1>> Sweep<'_, P> {
                 }
             }
         }
-        // Beyond an end the velocity goes on as it does before it.
-        lanes.jump[0] = if first > 0 { self.jump(first - 1) } else { lanes.jump[1] };
+        // Beyond a gap or an end the velocity goes on as it does before it: what is out of reach has
+        // no say.
+        let before = if first > 0 { self.jump(first - 1) } else { f64::NAN };
+        let own = body.is_some() && before.is_nan();
+        lanes.jump[0] = if own { lanes.jump[1] } else { before };
         if known + 1 < SPAN {
-            lanes.jump[known + 1] = lanes.jump[known];
+            lanes.jump[known + 1] = if body.is_some() { lanes.jump[known] } else { f64::NAN };
         }
         body
     }
 
-    /// Closing speed of particle `i` and the next, zero where they do not touch.
+    /// Closing speed of particle `i` and the next, NaN where they do not touch.
     fn jump(&self, i: usize) -> f64 {
         let contact = self.chain.contact_at(self.state.x, i, i + 1);
-        if contact.nearest { self.state.v[i] - self.state.v[i + 1] } else { 0.0 }
+        if contact.nearest { self.state.v[i] - self.state.v[i + 1] } else { f64::NAN }
     }
 
     /// All pairs of a block with the particle `offset` behind, with the sides and equations of state
-    /// that `of` gives. Pairs out of range come out as nothing.
+    /// that `of` gives. Pairs out of range come out as nothing. `faces`: whether there may be gaps.
     #[inline(always)]
     fn lanes<K: Pass>(
         &self,
-        (lanes, offset): (&Lanes, usize),
+        (lanes, offset, faces): (&Lanes, usize, bool),
         pairs: usize,
         law: ViscousLaw,
         deals: &mut Deals,
@@ -162,13 +171,30 @@ impl<P: Physics<1>> Sweep<'_, P> {
             let ends = [end(k), end(k + offset)];
             let r = lanes.x[k + offset] - lanes.x[k];
             let contact = self.chain.contact(&ends[0].side, &ends[1].side, r);
-            let jumps = [lanes.jump[k], lanes.jump[k + 1], lanes.jump[k + 2]];
-            let seen = if offset == 1 { law.seen(jumps) } else { ends[0].v - ends[1].v };
+            let own = ends[0].v - ends[1].v;
+            let jumps = [lanes.jump[k], own, lanes.jump[k + 2]];
+            let seen = match offset {
+                1 if faces => law.seen(jumps.map(|jump| if jump.is_nan() { own } else { jump })),
+                1 => law.seen(jumps),
+                _ => own,
+            };
             deals.enter::<K>(k, self.deal::<K>(&contact, (law, seen), &ends));
             if K::VOTES {
                 deals.wish(k, self.wish(&contact, law, &ends));
             }
         }
+    }
+
+    /// Power into the strain of the segments of a block. Half of a segment belongs to either particle;
+    /// what belongs to an image is not of this world.
+    fn strain_power(&self, deals: &Deals, first: usize, pairs: usize) -> f64 {
+        if !P::Solid::RESISTS {
+            return 0.0;
+        }
+        let real = self.chain.real();
+        let share = |i: usize| if real.contains(&i) { 0.5 } else { 0.0 };
+        let of = |k: usize| (share(first + k) + share(first + k + 1)) * deals.strain_power[k];
+        (0..pairs).map(of).sum()
     }
 
     /// Pairs of particle `i` with those more than `reached` behind it.
@@ -209,7 +235,6 @@ impl<P: Physics<1>> Sweep<'_, P> {
                 bins.add(i, on_i);
                 bins.add(j, on_j);
                 sums.pairs += 1;
-                sums.strain_power += deal.strain_power;
             }
         }
     }

@@ -12,13 +12,16 @@ pub enum Limiter {
     Closing,
     /// Viscosity and conduction may not overshoot.
     Diffusion,
+    /// The load on an end may not push its particle over a spacing.
+    Load,
     /// The run lands on its time.
     Landing,
 }
 
 impl Limiter {
     /// All limiters.
-    pub const ALL: [Self; 4] = [Self::Sound, Self::Closing, Self::Diffusion, Self::Landing];
+    pub const ALL: [Self; 5] =
+        [Self::Sound, Self::Closing, Self::Diffusion, Self::Load, Self::Landing];
 
     /// Name for messages.
     #[must_use]
@@ -27,6 +30,7 @@ impl Limiter {
             Self::Sound => "sound",
             Self::Closing => "closing speed",
             Self::Diffusion => "viscosity and conduction",
+            Self::Load => "load on an end",
             Self::Landing => "landing on the time asked for",
         }
     }
@@ -88,6 +92,8 @@ pub struct Decided {
     pub closing: u64,
     /// By [`Limiter::Diffusion`].
     pub diffusion: u64,
+    /// By [`Limiter::Load`].
+    pub load: u64,
     /// By [`Limiter::Landing`].
     pub landing: u64,
 }
@@ -98,6 +104,7 @@ impl Decided {
             Limiter::Sound => &mut self.sound,
             Limiter::Closing => &mut self.closing,
             Limiter::Diffusion => &mut self.diffusion,
+            Limiter::Load => &mut self.load,
             Limiter::Landing => &mut self.landing,
         } += 1;
     }

@@ -177,7 +177,7 @@ pub struct Verdict {
     pub status: Status,
     /// Whether a record is older than the solver.
     pub stale: bool,
-    /// How a run failed.
+    /// Why there is no number.
     pub note: String,
 }
 
@@ -192,7 +192,7 @@ fn verdict(claim: Claim, records: &Records) -> Verdict {
     let found: Vec<&RunRecord> = keys.iter().filter_map(|k| records.get(k)).collect();
     let stale = found.iter().any(|r| r.provenance.is_stale());
     let failed = found.iter().find_map(|r| match &r.outcome {
-        Outcome::Failed { kind, .. } => Some(kind.clone()),
+        Outcome::Failed { kind, .. } => Some(format!("run failed: {kind}")),
         Outcome::Completed => None,
     });
     let mut out = Verdict {
@@ -213,7 +213,10 @@ fn verdict(claim: Claim, records: &Records) -> Verdict {
     out.status = match out.value {
         Some(value) if out.claim.wanted.holds(value) => Status::Pass,
         Some(_) => Status::Fail,
-        None => Status::Missing,
+        None => {
+            out.note = "the record lacks this number".into();
+            Status::Fail
+        }
     };
     out
 }

@@ -67,7 +67,14 @@ fn apply_one(scene: &Scene, text: &str) -> Result<Scene, OverrideError> {
     // The JSON text of the value keeps the path of an error; the scene has no other route in.
     serde_path_to_error::deserialize(tree).map_err(|e| {
         let inner = e.inner().to_string();
-        bad(inner.replace("invalid type: ", "found ").replace("unknown variant", "unknown choice"))
+        let words = [
+            ("invalid type: ", "found "),
+            ("invalid value: ", "found "),
+            ("unknown variant", "unknown choice"),
+            ("expected f64", "expected a number"),
+            ("expected usize", "expected a whole number"),
+        ];
+        bad(words.iter().fold(inner, |text, (from, to)| text.replace(from, to)))
     })
 }
 
@@ -111,7 +118,9 @@ fn place<'a>(
 }
 
 fn no_key(key: &str, value: &str, part: &str, place: &str, known: &[&str]) -> OverrideError {
-    let hint = match did_you_mean(part, known.iter().copied()) {
+    // A number has no neighbours in spelling.
+    let word = part.parse::<usize>().is_err();
+    let hint = match did_you_mean(part, known.iter().copied().filter(|_| word)) {
         hint if hint.is_empty() && !known.is_empty() => format!("; known: {}", known.join(", ")),
         hint => hint,
     };

@@ -51,6 +51,11 @@ impl Eos for IdealGas {
     }
 
     #[inline(always)]
+    fn wave_speed_squared(&self, u: f64) -> f64 {
+        self.adiabatic_index * (self.adiabatic_index - 1.0) * (u - self.u_0).max(0.0)
+    }
+
+    #[inline(always)]
     fn c_v(&self) -> f64 {
         self.c_v
     }
@@ -66,6 +71,6 @@ impl Eos for IdealGas {
     }
 
     fn floor(&self) -> f64 {
-        self.u_still
+        self.u_0
     }
 }

@@ -38,6 +38,11 @@ impl Eos for Linear {
     }
 
     #[inline(always)]
+    fn wave_speed_squared(&self, _u: f64) -> f64 {
+        self.sound_speed * self.sound_speed
+    }
+
+    #[inline(always)]
     fn c_v(&self) -> f64 {
         self.c_v
     }

@@ -20,6 +20,8 @@ pub trait Eos: Copy + Send + Sync + 'static {
     fn temperature(&self, u: f64) -> f64;
     /// Sound speed `c_s` of viscosity, conduction and time step.
     fn sound_speed(&self, u: f64) -> f64;
+    /// Square of the thermodynamic sound speed, whatever [`Self::sound_speed`] reads.
+    fn wave_speed_squared(&self, u: f64) -> f64;
     /// Specific heat `c_v`.
     fn c_v(&self) -> f64;
     /// Slope `s` of the shock speed `U_s = c + s [u]`.

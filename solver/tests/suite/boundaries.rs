@@ -152,3 +152,44 @@ fn fixed_end_holds_a_moving_body() {
     assert_eq!((s.x[0].to_bits(), s.v[0].to_bits()), (0.0_f64.to_bits(), 0.0_f64.to_bits()));
     assert!(solver.ledger().energy_drift() < 1e-12, "{:e}", solver.ledger().energy_drift());
 }
+
+/// What is out of reach has no say: a body a hundred lengths away changes nothing of an expanding
+/// gas whose surface faces it.
+#[test]
+fn far_body_changes_nothing() {
+    let gas = |bodies| {
+        let mut scene = scene(Preset::Default.method(), IDEAL_GAS, FREE, bodies);
+        scene.stop_time = 0.1;
+        let mut solver = start(&scene);
+        solver.advance_to(0.1).expect("an expansion runs");
+        solver.snapshot()
+    };
+    let velocity = Profile::Linear { at_origin: 0.0, slope: 1.0 };
+    let near = Body { velocity, energy: Profile::Uniform(1.0), ..body(0.0, 1.0, 50) };
+    let far = Body {
+        interface: Interface::Contact,
+        energy: Profile::Uniform(1.0),
+        ..body(100.0, 101.0, 50)
+    };
+    let (alone, watched) = (gas(vec![near.clone()]), gas(vec![near, far]));
+    // The far body votes on the time step as well: what remains is the integrator's.
+    for i in 0..50 {
+        assert!((alone.u[i] / watched.u[i] - 1.0).abs() < 1e-4, "{i}");
+        assert!((alone.v[i] - watched.v[i]).abs() < 1e-4, "{i}");
+    }
+}
+
+/// A solid in tension between walls: the strain energy of segments to images is counted once, and
+/// the ledger closes.
+#[test]
+fn tension_at_a_wall_is_counted_once() {
+    let velocity = Profile::Cosine { mean: 0.0, amplitude: 0.01, mode: 2.0 };
+    let solid = Body { velocity, ..body(0.0, 1.0, 32) };
+    let walls = ends(Boundary::Mirror(0.0), Boundary::Mirror(1.0));
+    let scene = scene(Preset::Default.method(), SOLID, walls, vec![solid]);
+    let solver = after_steps(&scene, 400);
+    assert!(solver.ledger().strain > 0.0);
+    assert!(solver.ledger().energy_drift() < 1e-12, "{:e}", solver.ledger().energy_drift());
+    let (work, state) = (solver.ledger().strain, solver.strain_energy());
+    assert!((work / state - 1.0).abs() < 0.01, "{work:e} {state:e}");
+}

@@ -123,7 +123,7 @@ fn messages_say_who_what_when() {
     insta::assert_snapshot!(text, @r"
     not finite: velocity of particle 7 is NaN at t = 2.500000e-1
     density: density of particle 7 is -1.500e0 at t = 2.500000e-1: must be positive
-    internal energy: internal energy of particle 7 is -1.500e0 at t = 2.500000e-1, below the floor 0.000e0 of its equation of state: the heating of this method may depend on the frame
+    internal energy: internal energy of particle 7 is -1.500e0 at t = 2.500000e-1, below the floor 0.000e0 of its equation of state
     particles crossed: particles 7 and 8 crossed at t = 2.500000e-1: separation -1.500e0
     time step collapsed: time step 1.000e-15 at t = 2.500000e-1 is below 1.000e-12: limited by sound at particle 7
     too many neighbours: particle 7 has more neighbours in range than there is room for at t = 2.500000e-1 (63 on a side, or the images of a wall): the compression is too strong for pairs in contact range

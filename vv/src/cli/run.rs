@@ -7,7 +7,7 @@ use serde::Serialize;
 use whipple_solver::method::Preset;
 
 use super::progress::Progress;
-use super::{Failure, NUMERICAL_FAILURE, RunArgs, print};
+use super::{Failure, NUMERICAL_FAILURE, RunArgs, print, say};
 use crate::cases::{self, Case};
 use crate::files::{ensure_writable_dir, write_atomic};
 use crate::overrides;
@@ -102,12 +102,22 @@ fn request(case: &dyn Case, args: &RunArgs) -> Result<Request, Failure> {
         let density = args.density.map_or(preset.method().density, Into::into);
         Scheme::Particles { preset, density }
     };
-    let key = RunKey::new(case.id(), scheme, n).variant(&args.variant);
-    let scene = scene_of(case, &key)
+    let mut key = RunKey::new(case.id(), scheme, n).variant(&args.variant);
+    let plain = scene_of(case, &key);
+    let scene = plain
+        .clone()
         .map(|scene| overrides::apply(scene, &args.sets))
         .transpose()
         .map_err(Failure::usage)?;
-    if let Some(scene) = &scene {
+    if let (Some(scene), Some(plain)) = (&scene, &plain) {
+        key.n = scene.particles();
+        let same_problem = (&scene.materials, &scene.bodies, scene.boundaries, scene.stop_time)
+            == (&plain.materials, &plain.bodies, plain.boundaries, plain.stop_time);
+        if !same_problem {
+            say(
+                "note: the problem was changed, the norms still compare with the answer to the case",
+            );
+        }
         scene.validate().map_err(|error| {
             if error.key.ends_with(".particles") {
                 Failure::usage(format!("--n {n} is too small for `{}`: {error}", case.id()))

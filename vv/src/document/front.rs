@@ -108,9 +108,7 @@ fn claim_row(verdict: &Verdict) -> Vec<Cell> {
             Cell { text, value: Some(value), status: None }
         }
         (Some(value), None) => Cell::number(value, 5),
-        (None, _) if verdict.status == Judged::Fail => {
-            format!("run failed: {}", verdict.note).into()
-        }
+        (None, _) if verdict.status == Judged::Fail => verdict.note.clone().into(),
         (None, _) => "–".into(),
     };
     let status = match (verdict.status, claim.weight) {
@@ -159,8 +157,8 @@ pub(super) fn reading() -> Section {
          another code or an own converged reference. *Cost*: work and time. *Stability*: a hard case \
          with its pass number.",
         "`paper` is the paper's method as it stands, with the repairs without which it does not run: \
-         it exists for replication and is not Galilean invariant. `default` is what every other claim \
-         rests on. `default + kernel` has the summation density in its place and all else equal. \
+         it exists for replication and is not Galilean invariant. Claims rest on `default` unless they \
+         name `paper`. `default + kernel` has the summation density in its place and all else equal. \
          *Godunov* is a second-order Eulerian code of this project that shares nothing with the \
          particle solver: a second opinion.",
         "Required claims (*must*) decide the verdict. An *aim* is a goal beyond them. A *shown* claim \
@@ -206,9 +204,7 @@ pub(super) fn conservation(records: &Records) -> Section {
         let mut row =
             vec![named(r).into(), r.key.scheme.label().into(), Cell::count(r.key.n as u64)];
         row.extend(match &r.outcome {
-            Outcome::Completed => {
-                [Cell::number(r.energy_drift, 2), Cell::number(r.momentum_drift, 2)]
-            }
+            Outcome::Completed => [drift(r.energy_drift), drift(r.momentum_drift)],
             Outcome::Failed { kind, .. } => [format!("failed: {kind}").into(), "–".into()],
         });
         row.push(Cell::count(r.steps));
@@ -228,6 +224,12 @@ pub(super) fn conservation(records: &Records) -> Section {
     Section::new("conservation", "Conservation", vec![Block::Table(table)])
 }
 
+/// An error of a balance; one of a hundredth or more wants a look.
+fn drift(value: f64) -> Cell {
+    let cell = Cell::number(value, 2);
+    if value < 0.01 { cell } else { cell.status(Status::Warn) }
+}
+
 fn named(record: &RunRecord) -> String {
     if record.key.variant.is_empty() {
         record.key.case.clone()
@@ -245,6 +247,7 @@ fn limited_by(record: &RunRecord) -> String {
         ("sound", decided.sound),
         ("closing", decided.closing),
         ("diffusion", decided.diffusion),
+        ("load", decided.load),
         ("landing", decided.landing),
     ];
     let total: u64 = all.iter().map(|(_, n)| n).sum();
