@@ -83,7 +83,7 @@ pub struct PairSums {
     pub strain_power: f64,
     /// Votes of the pairs on the time step.
     pub votes: [Vote; 2],
-    /// A particle with neighbours beyond [`REACH`] in range.
+    /// A particle with more neighbours in range than there is room for.
     pub overflow: Option<usize>,
 }
 

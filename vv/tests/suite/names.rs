@@ -109,3 +109,18 @@ fn cases_are_complete() {
         }
     }
 }
+
+/// A scene is plain data: written as TOML it reads back as itself.
+#[test]
+fn scenes_survive_toml() {
+    for case in whipple_vv::cases::ALL {
+        for preset in whipple_solver::method::Preset::ALL {
+            for variant in case.variants() {
+                let scene = case.scene(preset, variant, case.default_size());
+                let text = toml::to_string(&scene).expect("a scene is TOML");
+                let back: whipple_solver::scene::Scene = toml::from_str(&text).expect(case.id());
+                assert_eq!(back, scene, "{} {variant}", case.id());
+            }
+        }
+    }
+}
