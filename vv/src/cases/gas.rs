@@ -72,6 +72,8 @@ pub(super) struct GasProblem {
     pub sizes: Sizes,
     pub setup: fn(variant: &str) -> Result<Setup, RunError>,
     pub claims: fn() -> Vec<Claim>,
+    /// What the answer is called: exact, or a reference.
+    pub answer: &'static str,
     /// Whether the Godunov code can run it.
     pub eulerian: bool,
 }
@@ -355,8 +357,8 @@ impl GasProblem {
         let panels = fields
             .map(|(name, label)| {
                 let mut panel = Panel::new("", Axis::linear("x"), Axis::linear(label));
-                panel =
-                    panel.with(Layer::exact("exact", last.points("x", &format!("{name}_exact"))));
+                panel = panel
+                    .with(Layer::exact(self.answer, last.points("x", &format!("{name}_exact"))));
                 for (scheme, profile) in &drawn {
                     panel = panel.with(curve(*scheme, profile.points("x", name)));
                 }
@@ -365,7 +367,8 @@ impl GasProblem {
             .collect();
         let id = if variant.is_empty() { self.id.into() } else { format!("{}-{variant}", self.id) };
         let what = if variant.is_empty() { String::new() } else { format!(" ({variant})") };
-        let caption = format!("{}{what}: n = {n}, against the exact solution.", self.title);
+        let caption =
+            format!("{}{what}: n = {n}, against the {} solution.", self.title, self.answer);
         Some(Figure::new(id, caption, panels))
     }
 }

@@ -25,6 +25,7 @@ pub(super) const CASE: GasProblem = GasProblem {
     sizes: Sizes { quick: &[200], standard: SIZES, drawn: 200, fine: &[] },
     setup,
     claims,
+    answer: "exact",
     eulerian: false,
 };
 

@@ -37,6 +37,7 @@ pub(super) const CASE: GasProblem = GasProblem {
     sizes: Sizes { quick: &[200], standard: SIZES, drawn: 400, fine: FINE },
     setup,
     claims,
+    answer: "reference",
     eulerian: true,
 };
 

@@ -158,7 +158,7 @@ pub(super) fn reading() -> Section {
          with its pass number.",
         "`paper` is the paper's method as it stands, with the repairs without which it does not run: \
          it exists for replication and is not Galilean invariant. Claims rest on `default` unless they \
-         name `paper`. `default + kernel` has the summation density in its place and all else equal. \
+         name `paper`. `default + kernel` has an evolving kernel density in its place and all else equal. \
          *Godunov* is a second-order Eulerian code of this project that shares nothing with the \
          particle solver: a second opinion.",
         "Required claims (*must*) decide the verdict. An *aim* is a goal beyond them. A *shown* claim \
