@@ -118,7 +118,8 @@ fn scenes_survive_toml() {
             for variant in case.variants() {
                 let scene = case.scene(preset, variant, case.default_size());
                 let text = toml::to_string(&scene).expect("a scene is TOML");
-                let back: whipple_solver::scene::Scene = toml::from_str(&text).expect(case.id());
+                let back: whipple_solver::scene::Scene =
+                    toml::from_str(&text).expect("it reads back");
                 assert_eq!(back, scene, "{} {variant}", case.id());
             }
         }
