@@ -19,6 +19,7 @@ pub mod physics;
 pub mod scene;
 pub mod simulation;
 pub mod solver;
+pub mod space;
 pub mod sweep;
 pub mod timestep;
 pub mod units;

@@ -1,0 +1,344 @@
+//! Contacts between particles that are not neighbours in live material: Eqs. (34)-(36), (78), the
+//! viscosity (51)-(53) and the conduction (56)-(57).
+//!
+//! Members are the particles that can take part: with elements that carry the pressure, those on
+//! surfaces and of dead elements, and two layers below; without, all. A list of pairs in reach is
+//! kept until motion makes it stale.
+
+use rayon::prelude::*;
+
+use super::columns::{Derived, State, Sums};
+use super::lattice::NONE;
+use super::mesh::Mesh;
+use super::method::Method;
+use super::near::{PairList, Points, Reach};
+
+/// Pairs that one task evaluates.
+const BLOCK: usize = 4096;
+
+/// Margin of the list over the reach of contacts, in contact lengths.
+const SKIN: f64 = 0.8;
+
+/// Overlap beyond which the force of a contact rises no more, as a share of the distance of contact.
+const DEEPEST: f64 = 0.8;
+
+/// The particles that can touch, and the pairs of them that might.
+#[derive(Debug, Clone, Default)]
+pub struct Contacts {
+    members: Vec<u32>,
+    /// Member that a particle is.
+    index: Vec<u32>,
+    reference: [Vec<f64>; 3],
+    position: [Vec<f64>; 3],
+    length: Vec<f32>,
+    exposed: Vec<bool>,
+    body: Vec<u16>,
+    place: Vec<[i16; 3]>,
+    list: PairList,
+    blocks: Vec<Vec<Active>>,
+    /// Whether the list must be renewed whatever has moved.
+    changed: bool,
+    longest: f64,
+}
+
+/// A pair in contact in this step.
+#[derive(Debug, Clone, Copy)]
+pub struct Active {
+    /// Particles.
+    pair: [u32; 2],
+    /// Their bodies.
+    bodies: [u16; 2],
+    /// From the second to the first.
+    r: [f64; 3],
+    /// `3/8 rho_o g` of each: density rate per closing rate of `r^2 / 2`.
+    row: [f64; 2],
+    /// Pressure force over separation, and its share of the first particle.
+    push: [f64; 2],
+    /// Viscous force over separation.
+    drag: f64,
+    /// Heat flux from the first to the second.
+    flux: f64,
+}
+
+impl Active {
+    /// Whether it does anything: particles at rest beside each other do not.
+    fn moves(&self, mesh: &Mesh) -> bool {
+        self.bodies[0] != self.bodies[1]
+            && mesh.bodies[self.bodies[0] as usize].velocity
+                != mesh.bodies[self.bodies[1] as usize].velocity
+            || self.push != [0.0; 2]
+            || self.drag != 0.0
+            || self.flux != 0.0
+    }
+}
+
+/// What a contact sees.
+struct View<'a> {
+    mesh: &'a Mesh,
+    state: &'a State,
+    derived: &'a Derived,
+    method: &'a Method,
+}
+
+impl Contacts {
+    /// Chooses members: all particles, or those near surfaces.
+    #[must_use]
+    pub fn new(mesh: &Mesh, everyone: bool) -> Self {
+        let mut contacts = Self {
+            index: vec![NONE; mesh.len],
+            longest: mesh.bodies.iter().map(|b| b.length).fold(0.0, f64::max),
+            ..Self::default()
+        };
+        for i in mesh.real() {
+            if everyone || mesh.exposed(i) {
+                contacts.expose(mesh, i);
+            }
+        }
+        contacts
+    }
+
+    /// Makes a particle able to touch any other, and members of those within two cells.
+    pub fn expose(&mut self, mesh: &Mesh, i: usize) {
+        let (body, place) = mesh.place(i);
+        let member = self.admit(mesh, i);
+        if self.exposed[member] {
+            return;
+        }
+        self.exposed[member] = true;
+        self.changed = true;
+        for near in mesh.within_two_cells(body, place) {
+            self.admit(mesh, near);
+        }
+    }
+
+    /// The member that a particle is.
+    fn admit(&mut self, mesh: &Mesh, i: usize) -> usize {
+        if self.index[i] != NONE {
+            return self.index[i] as usize;
+        }
+        let (body, place) = mesh.place(i);
+        let member = self.members.len();
+        self.index[i] = member as u32;
+        self.members.push(i as u32);
+        let x = mesh.bodies[body].lattice.position(place);
+        for d in 0..3 {
+            self.reference[d].push(x[d]);
+            self.position[d].push(x[d]);
+        }
+        self.length.push(mesh.bodies[body].length as f32);
+        self.exposed.push(false);
+        self.body.push(body as u16);
+        self.place.push(place);
+        member
+    }
+
+    /// Every member: particle, body and position along an axis.
+    pub fn along(&self, axis: usize) -> impl Iterator<Item = (usize, usize, f64)> + '_ {
+        let bodies = self.body.iter().map(|&b| b as usize);
+        let particles = self.members.iter().map(|&i| i as usize);
+        particles.zip(bodies).zip(&self.position[axis]).map(|((i, body), &x)| (i, body, x))
+    }
+
+    /// Number of members.
+    #[must_use]
+    pub fn members(&self) -> usize {
+        self.members.len()
+    }
+
+    /// Pairs in the list.
+    #[must_use]
+    pub fn pairs(&self) -> usize {
+        self.list.pairs().len()
+    }
+
+    /// Moves the members to their present positions and renews the list if it is stale. Returns
+    /// whether it was.
+    pub fn refresh(&mut self, mesh: &Mesh, state: &State, method: &Method, everyone: bool) -> bool {
+        let own = [&state.dx, &state.dy, &state.dz];
+        let (members, body) = (&self.members, &self.body);
+        for (d, own) in own.into_iter().enumerate() {
+            let reference = &self.reference[d];
+            self.position[d].par_chunks_mut(BLOCK).enumerate().for_each(|(k, x)| {
+                for (at, x) in x.iter_mut().enumerate() {
+                    let at = at + k * BLOCK;
+                    let way = mesh.bodies[body[at] as usize].way[d];
+                    *x = reference[at] + (way + own[members[at] as usize]);
+                }
+            });
+        }
+        let points = Points {
+            x: &self.position[0],
+            y: &self.position[1],
+            z: &self.position[2],
+            length: &self.length,
+            exposed: &self.exposed,
+            body: &self.body,
+        };
+        if !self.changed && !self.list.is_stale(&points) {
+            return false;
+        }
+        self.changed = false;
+        let reach = Reach { factor: method.contact_reach, skin: SKIN * self.longest };
+        let keep = |a: u32, b: u32| {
+            let (a, b) = (a as usize, b as usize);
+            everyone
+                || self.body[a] != self.body[b]
+                || !mesh.bonded(self.body[a] as usize, self.place[a], self.place[b])
+        };
+        self.list.rebuild(&points, reach, keep);
+        true
+    }
+
+    /// Forces, conduction and the marks of touched particles.
+    pub fn push(
+        &mut self,
+        mesh: &Mesh,
+        (state, derived): (&State, &Derived),
+        (method, dt): (&Method, f64),
+        (sums, touched, active): (&mut Sums, &mut [bool], &mut [bool]),
+    ) {
+        let view = View { mesh, state, derived, method };
+        let pairs = self.list.pairs();
+        self.blocks.resize_with(pairs.len().div_ceil(BLOCK), Vec::new);
+        let (position, members, body) = (&self.position, &self.members, &self.body);
+        self.blocks.par_iter_mut().zip(pairs.par_chunks(BLOCK)).for_each(|(found, pairs)| {
+            found.clear();
+            for &[a, b] in pairs {
+                let (a, b) = (a as usize, b as usize);
+                let r: [f64; 3] = std::array::from_fn(|d| position[d][a] - position[d][b]);
+                let bodies = [body[a] as usize, body[b] as usize];
+                found.extend(view.contact([members[a], members[b]], r, bodies));
+            }
+        });
+        for contact in self.blocks.iter().flatten() {
+            let [i, j] = contact.pair.map(|k| k as usize);
+            let force = contact.push[0] + contact.push[1] + contact.drag;
+            let f = contact.r.map(|r| force * r);
+            sums.fx[i] += f[0];
+            sums.fy[i] += f[1];
+            sums.fz[i] += f[2];
+            sums.fx[j] -= f[0];
+            sums.fy[j] -= f[1];
+            sums.fz[j] -= f[2];
+            sums.heat[i] -= contact.flux * dt;
+            sums.heat[j] += contact.flux * dt;
+            if contact.moves(mesh) {
+                active[mesh.piece_of(i)] = true;
+                active[mesh.piece_of(j)] = true;
+            }
+            touched[i] = true;
+            touched[j] = true;
+        }
+    }
+
+    /// Density rates, pressure work and viscous heat over the mean velocity of the step.
+    pub fn work(&self, mesh: &Mesh, derived: &Derived, dt: f64, sums: &mut Sums) {
+        for active in self.blocks.iter().flatten() {
+            let [i, j] = active.pair.map(|k| k as usize);
+            let drift = mesh.drift_of(active.bodies[0] as usize, active.bodies[1] as usize);
+            let v = [
+                derived.mx[i] - derived.mx[j] + drift[0],
+                derived.my[i] - derived.my[j] + drift[1],
+                derived.mz[i] - derived.mz[j] + drift[2],
+            ];
+            let closing = -(active.r[0] * v[0] + active.r[1] * v[1] + active.r[2] * v[2]);
+            sums.rho_rate[i] += active.row[0] * closing;
+            sums.rho_rate[j] += active.row[1] * closing;
+            let half = 0.5 * active.drag;
+            sums.heat[i] += dt * (active.push[0] + half) * closing;
+            sums.heat[j] += dt * (active.push[1] + half) * closing;
+        }
+    }
+
+    /// Pairs that touch in this step.
+    pub fn active(&self) -> impl Iterator<Item = [usize; 2]> + '_ {
+        self.blocks.iter().flatten().map(|active| active.pair.map(|k| k as usize))
+    }
+
+    /// Bytes that it takes.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        let blocks: usize = self.blocks.iter().map(Vec::capacity).sum();
+        self.members.capacity() * (4 + 48 + 4 + 1 + 2 + 6)
+            + self.list.bytes()
+            + blocks * std::mem::size_of::<Active>()
+    }
+}
+
+impl View<'_> {
+    /// The contact of particles `pair` at distance `r`, if there is one.
+    #[inline]
+    fn contact(&self, pair: [u32; 2], r: [f64; 3], bodies: [usize; 2]) -> Option<Active> {
+        let [i, j] = pair.map(|k| k as usize);
+        let square = r[0] * r[0] + r[1] * r[1] + r[2] * r[2];
+        let body = bodies.map(|b| &self.mesh.bodies[b]);
+        let widest = body[0].length.max(body[1].length) * self.method.contact_reach;
+        if square >= widest * widest {
+            return None;
+        }
+        let distance = square.sqrt();
+        let ratio = [self.derived.rho[i] / body[0].rho_0, self.derived.rho[j] / body[1].rho_0];
+        // Of the first on the ellipsoid of the second, Eqs. (9), (35), and the other way round.
+        let row = [
+            body[0].rho_0 * self.row(distance, body[1].length, ratio[1]),
+            body[1].rho_0 * self.row(distance, body[0].length, ratio[0]),
+        ];
+        let near = distance < body[0].length.max(body[1].length);
+        if row[0] == 0.0 && row[1] == 0.0 && !near {
+            return None;
+        }
+        let per = |k: usize, i: usize| {
+            let rho = self.derived.rho[i];
+            row[k] * self.mesh.mass[i] * self.derived.pressure[i] / (rho * rho)
+        };
+        let mut active = Active {
+            pair,
+            bodies: bodies.map(|b| b as u16),
+            r,
+            row,
+            push: [per(0, i), per(1, j)],
+            drag: 0.0,
+            flux: 0.0,
+        };
+        if near {
+            let impedance = [self.impedance(i, bodies[0]), self.impedance(j, bodies[1])];
+            let drift = self.mesh.drift_of(bodies[0], bodies[1]);
+            let v = [
+                self.state.vx[i] - self.state.vx[j] + drift[0],
+                self.state.vy[i] - self.state.vy[j] + drift[1],
+                self.state.vz[i] - self.state.vz[j] + drift[2],
+            ];
+            let approach = -(r[0] * v[0] + r[1] * v[1] + r[2] * v[2]) / distance;
+            if approach > 0.0 {
+                let sound = self.derived.sound[i] + self.derived.sound[j];
+                let steep = 1.0 + 2.0 * self.method.visc_quad * approach / sound.max(1e-300);
+                let nu = 0.5 * self.method.visc_linear * (impedance[0] + impedance[1]) * steep;
+                active.drag = nu * approach / distance;
+            }
+            let [a, b] = [0, 1].map(|k| impedance[k] * body[k].eos.c_v());
+            let transfer = 0.5 * self.method.heat_coeff * (a + b);
+            active.flux = transfer * (self.derived.theta[i] - self.derived.theta[j]);
+        }
+        Some(active)
+    }
+
+    /// `3/8 W / (zeta^5 L^2)`, Eqs. (35)-(36), at a distance from a particle of contact length `L`.
+    #[inline(always)]
+    fn row(&self, distance: f64, length: f64, ratio: f64) -> f64 {
+        let zeta = distance / length;
+        let tolerance = 1.0 + self.method.contact_tolerance;
+        let cube = zeta * zeta * zeta * ratio;
+        if zeta >= self.method.contact_reach || cube >= tolerance * tolerance * tolerance {
+            return 0.0;
+        }
+        let zeta = if cube < DEEPEST * DEEPEST * DEEPEST { DEEPEST / ratio.cbrt() } else { zeta };
+        0.375 / (zeta.powi(5) * length * length)
+    }
+
+    /// `rho_o c_s V_o^(2/3)`, Eq. (53).
+    #[inline(always)]
+    fn impedance(&self, i: usize, body: usize) -> f64 {
+        let area = self.mesh.areas[body][self.mesh.share[i] as usize];
+        self.mesh.bodies[body].rho_0 * self.derived.sound[i] * area
+    }
+}

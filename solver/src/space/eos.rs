@@ -1,0 +1,254 @@
+//! Equations of state, Eq. (22), eight particles at a time.
+
+use super::lanes::F8;
+use super::scene::{EosData, GammaLaw, Material};
+
+/// Pressure and what follows from it.
+#[derive(Debug, Clone, Copy)]
+pub struct Response {
+    /// Pressure `P`; not negative, since tension is carried by the elements.
+    pub pressure: F8,
+    /// Square of the sound speed `c_s`.
+    pub sound_squared: F8,
+    /// Temperature `theta`.
+    pub theta: F8,
+}
+
+/// An equation of state. Which one is decided once a piece of particles.
+#[derive(Debug, Clone, Copy)]
+pub enum Eos {
+    /// Solids.
+    MieGruneisen(MieGruneisen),
+    /// Gases.
+    IdealGas(IdealGas),
+}
+
+/// `P = P_H + Gamma rho (u - u_H)` on the Hugoniot `U_s = c0 + s u_p`, linear in expansion.
+#[derive(Debug, Clone, Copy)]
+pub struct MieGruneisen {
+    rho_0: f64,
+    /// `rho_o c0^2`, the bulk modulus.
+    bulk: f64,
+    s: f64,
+    /// `Gamma rho` at the reference density.
+    product: f64,
+    /// Its increase per density.
+    steepness: f64,
+    /// Energy on the cold curve is `cold_2 eta^2 (1 + cold_3 eta)`.
+    cold_2: f64,
+    cold_3: f64,
+    c_v: f64,
+    theta_0: f64,
+    /// Compression beyond which the Hugoniot goes on straight.
+    eta_cap: f64,
+}
+
+/// Eq. (80) with `u_o = 0`.
+#[derive(Debug, Clone, Copy)]
+pub struct IdealGas {
+    index: f64,
+    c_v: f64,
+}
+
+/// Share of the compression at which the Hugoniot ends, `eta = 1/s`, from where on it goes on
+/// straight.
+const LAST: f64 = 0.85;
+
+/// Lowest sound speed over the reference one, squared.
+const LEAST_SOUND: f64 = 0.25;
+
+impl Eos {
+    /// The equation of state of a material.
+    #[must_use]
+    pub fn new(material: &Material) -> Self {
+        let rho_0 = material.density;
+        match material.eos {
+            EosData::MieGruneisen { c0, s, gamma_0, law, c_v, theta_0 } => {
+                let b = match law {
+                    GammaLaw::ConstantProduct => 0.0,
+                    GammaLaw::Steinberg(b) => b,
+                };
+                Self::MieGruneisen(MieGruneisen {
+                    rho_0,
+                    bulk: rho_0 * c0 * c0,
+                    s,
+                    product: rho_0 * gamma_0,
+                    steepness: b,
+                    cold_2: 0.5 * c0 * c0,
+                    cold_3: 2.0 / 3.0 * (2.0 * s - 0.5 * gamma_0) + gamma_0 / 3.0,
+                    c_v,
+                    theta_0,
+                    eta_cap: LAST / s.max(1e-3),
+                })
+            }
+            EosData::IdealGas { adiabatic_index, c_v } => {
+                Self::IdealGas(IdealGas { index: adiabatic_index, c_v })
+            }
+        }
+    }
+
+    /// Bulk modulus `K` of the elements in tension, Eq. (25): none for a gas.
+    #[must_use]
+    pub fn bulk(&self) -> f64 {
+        match self {
+            Self::MieGruneisen(solid) => solid.bulk,
+            Self::IdealGas(_) => 0.0,
+        }
+    }
+
+    /// Specific heat `c_v`.
+    #[must_use]
+    pub fn c_v(&self) -> f64 {
+        match self {
+            Self::MieGruneisen(solid) => solid.c_v,
+            Self::IdealGas(gas) => gas.c_v,
+        }
+    }
+
+    /// Temperature of the reference state.
+    #[must_use]
+    pub fn theta_0(&self) -> f64 {
+        match self {
+            Self::MieGruneisen(solid) => solid.theta_0,
+            Self::IdealGas(_) => 0.0,
+        }
+    }
+
+    /// Pressure, sound speed and temperature at a density and an internal energy per mass.
+    #[inline(always)]
+    #[must_use]
+    pub fn respond(&self, rho: F8, u: F8) -> Response {
+        match self {
+            Self::MieGruneisen(solid) => solid.respond(rho, u),
+            Self::IdealGas(gas) => gas.respond(rho, u),
+        }
+    }
+}
+
+impl MieGruneisen {
+    #[inline(always)]
+    fn respond(&self, rho: F8, u: F8) -> Response {
+        let zero = F8::ZERO;
+        let inverse = 1.0 / rho;
+        // Written so that both are exactly zero at the reference density.
+        let mu = (rho - self.rho_0) * (1.0 / self.rho_0);
+        let eta = (rho - self.rho_0) * inverse;
+        let capped = eta.min(F8::splat(self.eta_cap)).max(zero);
+        let gap = 1.0 / (1.0 - self.s * capped);
+        let product = self.product + self.steepness * (rho - self.rho_0);
+        // Half of eta Gamma rho / rho_o.
+        let release = product * capped * (0.5 / self.rho_0);
+        let hugoniot = self.bulk * capped * gap * gap;
+        let slope = self.bulk * (1.0 + self.s * capped) * gap * gap * gap;
+        let d_eta = self.rho_0 * inverse * inverse;
+        let compressed = slope * (1.0 - release) - hugoniot * product * (0.5 / self.rho_0);
+        // Beyond the cap the cold pressure is linear in the density, with the slope that it has there.
+        let last = self.rho_0 / (1.0 - self.eta_cap);
+        let beyond = (rho - last).max(zero);
+        let cap_slope = self.rho_0 / (last * last);
+        let d_eta = F8::select(beyond.gt(zero), F8::splat(cap_slope), d_eta);
+        let cold = hugoniot * (1.0 - release) + compressed * cap_slope * beyond;
+        let expanded = mu.lt(zero);
+        let cold = F8::select(expanded, self.bulk * mu, cold);
+        let d_cold = F8::select(expanded, F8::splat(self.bulk / self.rho_0), compressed * d_eta);
+        let d_cold = d_cold + self.steepness * (u - hugoniot * capped * (0.5 / self.rho_0));
+        let pressure = (cold + product * u).max(zero);
+        let sound = d_cold + pressure * product * inverse * inverse;
+        let least = LEAST_SOUND * self.bulk / self.rho_0;
+        let u_cold = self.cold_2 * capped * capped * (1.0 + self.cold_3 * capped);
+        let theta = self.theta_0 + (u - u_cold).max(zero) * (1.0 / self.c_v);
+        Response { pressure, sound_squared: sound.max(F8::splat(least)), theta }
+    }
+}
+
+impl IdealGas {
+    #[inline(always)]
+    fn respond(&self, rho: F8, u: F8) -> Response {
+        let u = u.max(F8::ZERO);
+        Response {
+            pressure: (self.index - 1.0) * rho * u,
+            sound_squared: self.index * (self.index - 1.0) * u,
+            theta: u * (1.0 / self.c_v),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::space::scene::Failure;
+
+    fn copper(law: GammaLaw) -> Eos {
+        Eos::new(&Material {
+            name: "copper".into(),
+            density: 8.93,
+            eos: EosData::MieGruneisen {
+                c0: 0.394,
+                s: 1.489,
+                gamma_0: 2.02,
+                law,
+                c_v: 0.383e-5,
+                theta_0: 300.0,
+            },
+            strength: None,
+            failure: Failure::default(),
+        })
+    }
+
+    fn at(eos: &Eos, rho: f64, u: f64) -> (f64, f64) {
+        let r = eos.respond(F8::splat(rho), F8::splat(u));
+        (r.pressure.0[0], r.sound_squared.0[0])
+    }
+
+    #[test]
+    fn the_hugoniot_lies_on_the_surface() {
+        for law in [GammaLaw::ConstantProduct, GammaLaw::Steinberg(0.47)] {
+            let eos = copper(law);
+            for up in [0.01, 0.05, 0.1, 0.2, 0.35] {
+                let us = 0.394 + 1.489 * up;
+                let (pressure, rho) = (8.93 * us * up, 8.93 * us / (us - up));
+                let (found, _) = at(&eos, rho, 0.5 * up * up);
+                assert!((found / pressure - 1.0).abs() < 1e-12, "{up}: {found} {pressure}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_sound_speed_is_the_isentropic_slope() {
+        for law in [GammaLaw::ConstantProduct, GammaLaw::Steinberg(0.47)] {
+            let eos = copper(law);
+            for (rho, u) in [(9.5, 1e-3), (11.0, 5e-3), (14.0, 0.05), (8.5, 2e-2)] {
+                let (p, c2) = at(&eos, rho, u);
+                let h = 1e-5 * rho;
+                let along = |rho_1: f64| {
+                    // One Heun step along du = P / rho^2 drho.
+                    let du = p / (rho * rho) * (rho_1 - rho);
+                    let (p1, _) = at(&eos, rho_1, u + du);
+                    at(
+                        &eos,
+                        rho_1,
+                        u + 0.5 * (p / rho.powi(2) + p1 / rho_1.powi(2)) * (rho_1 - rho),
+                    )
+                    .0
+                };
+                let slope = (along(rho + h) - along(rho - h)) / (2.0 * h);
+                assert!((slope / c2 - 1.0).abs() < 1e-6, "{rho} {u}: {slope} {c2}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_reference_state_is_exactly_free_of_pressure() {
+        let eos = copper(GammaLaw::ConstantProduct);
+        assert_eq!(at(&eos, 8.93, 0.0).0, 0.0);
+    }
+
+    #[test]
+    fn pressure_is_continuous_at_the_cap_and_rises_beyond() {
+        let eos = copper(GammaLaw::ConstantProduct);
+        let last = 8.93 / (1.0 - 0.85 / 1.489);
+        let [(a, _), (b, _), (c, _)] =
+            [last * (1.0 - 1e-9), last * (1.0 + 1e-9), 1.1 * last].map(|rho| at(&eos, rho, 0.0));
+        assert!((a / b - 1.0).abs() < 1e-6 && c > b);
+    }
+}

@@ -1,0 +1,298 @@
+//! The lattice of one body: which cells fill its shape, and its particles in lattice order.
+//!
+//! Particles sit at the nodes and centroids of equal cells. The axes of the lattice are called fast,
+//! mid and slow: fast runs along the most cells, so that eight cells side by side are eight numbers
+//! in a row; slow is the second longest, so that whole planes of cells can go to different threads.
+//! Positions are counted in half cells: nodes have even coordinates, centroids odd ones.
+
+use super::scene::{Body, Shape};
+
+/// Sixteenths of a cell's mass at its centroid; each node has one of them.
+pub const CENTROID_SHARE: u8 = 8;
+
+/// No particle or cell.
+pub const NONE: u32 = u32::MAX;
+
+/// Cells in a row along the fast axis, without a gap.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Run {
+    /// Cell coordinate along the slow axis.
+    pub slow: usize,
+    /// First cell: its nodes at the lower fast end, for (mid, slow) = (0,0), (1,0), (0,1), (1,1).
+    pub rows: [u32; 4],
+    /// First cell: its centroid, counted among the centroids.
+    pub centre: u32,
+    /// Number of cells.
+    pub cells: usize,
+}
+
+/// The lattice of a body.
+#[derive(Debug, Clone)]
+pub struct Lattice {
+    /// Edges of a cell along the fast, mid and slow axes.
+    pub size: [f64; 3],
+    /// The fast, mid and slow axes as unit vectors, right-handed.
+    pub axes: [[f64; 3]; 3],
+    /// Corner of the lattice, where all coordinates are zero.
+    pub origin: [f64; 3],
+    /// Cells along the fast, mid and slow axes.
+    pub cells: [usize; 3],
+    /// Coordinates of the nodes in half cells, slowest axis first in order.
+    pub nodes: Vec<[i16; 3]>,
+    /// Coordinates of the centroids in half cells.
+    pub centroids: Vec<[i16; 3]>,
+    /// Cells round each node, 1 to 8: its mass in sixteenths of a cell.
+    pub share: Vec<u8>,
+    /// The cells, in order.
+    pub runs: Vec<Run>,
+    /// First node of every slow plane, and the number of nodes.
+    pub node_planes: Vec<usize>,
+    /// First centroid of every slow plane of cells, and the number of centroids.
+    pub cell_planes: Vec<usize>,
+    node_at: Vec<u32>,
+    cell_at: Vec<u32>,
+}
+
+/// Edges of the cells of a body along its own axes: the cells have the volume of the shape.
+#[must_use]
+pub fn cell_size(body: &Body) -> [f64; 3] {
+    let extent = body.shape.extent();
+    let even = |axis: usize| extent[axis] / body.cells[axis] as f64;
+    let [n1, n2, n3] = body.cells;
+    let filled = |inside: &dyn Fn(usize, usize, usize) -> bool, depth: usize| -> usize {
+        let cells = (0..depth).flat_map(|k| (0..n2).map(move |j| (j, k)));
+        cells.map(|(j, k)| (0..n1).filter(|&i| inside(i, j, k)).count()).sum()
+    };
+    match body.shape {
+        Shape::Box { .. } => [even(0), even(1), even(2)],
+        Shape::Cylinder { diameter, length } => {
+            let disc = filled(&|i, j, _| inside(body, [i, j, 0]), 1);
+            // Stretches both edges alike, so that unequal counts keep their ratio.
+            let area = body.shape.volume() / length;
+            let nominal = disc as f64 * (diameter / n1 as f64) * (diameter / n2 as f64);
+            let scale = (area / nominal).sqrt();
+            [even(0) * scale, even(1) * scale, even(2)]
+        }
+        Shape::Sphere { .. } => {
+            let ball = filled(&|i, j, k| inside(body, [i, j, k]), n3);
+            let nominal = ball as f64 * even(0) * even(1) * even(2);
+            let scale = (body.shape.volume() / nominal).cbrt();
+            [even(0) * scale, even(1) * scale, even(2) * scale]
+        }
+    }
+}
+
+/// Whether a cell, by its coordinates along the body's own axes, belongs to the shape: by its centre
+/// and the shape inscribed in the box of the cells.
+fn inside(body: &Body, cell: [usize; 3]) -> bool {
+    let axes = match body.shape {
+        Shape::Box { .. } => 0,
+        Shape::Cylinder { .. } => 2,
+        Shape::Sphere { .. } => 3,
+    };
+    let from_centre = |axis: usize| {
+        let n = body.cells[axis] as f64;
+        (2.0 * cell[axis] as f64 + 1.0 - n) / n
+    };
+    (0..axes).map(|axis| from_centre(axis).powi(2)).sum::<f64>() <= 1.0
+}
+
+impl Lattice {
+    /// The lattice of a body at the start.
+    #[must_use]
+    pub fn new(body: &Body) -> Self {
+        let own = cell_size(body);
+        let order = axis_order(body.cells);
+        let turned = rotation(body.turn.axis, body.turn.degrees.to_radians());
+        let (fast, slow) = (turned[order[0]], turned[order[2]]);
+        // Right-handed, whichever way the mid axis then points: the shapes are symmetric.
+        let axes = [fast, cross(slow, fast), slow];
+        let size = order.map(|axis| own[axis]);
+        let cells = order.map(|axis| body.cells[axis]);
+        let mut origin = body.centre;
+        for k in 0..3 {
+            for (d, x) in origin.iter_mut().enumerate() {
+                *x -= 0.5 * size[k] * cells[k] as f64 * axes[k][d];
+            }
+        }
+        let in_shape = |at: [usize; 3]| {
+            let mut cell = [0; 3];
+            for k in 0..3 {
+                cell[order[k]] = at[k];
+            }
+            inside(body, cell)
+        };
+        let mut lattice = Self {
+            size,
+            axes,
+            origin,
+            cells,
+            nodes: Vec::new(),
+            centroids: Vec::new(),
+            share: Vec::new(),
+            runs: Vec::new(),
+            node_planes: Vec::new(),
+            cell_planes: Vec::new(),
+            node_at: Vec::new(),
+            cell_at: Vec::new(),
+        };
+        lattice.fill(&in_shape);
+        lattice.connect();
+        lattice
+    }
+
+    /// Numbers cells and nodes.
+    fn fill(&mut self, in_shape: &dyn Fn([usize; 3]) -> bool) {
+        let [nf, nm, ns] = self.cells;
+        self.cell_at = vec![NONE; nf * nm * ns];
+        for s in 0..ns {
+            self.cell_planes.push(self.centroids.len());
+            for m in 0..nm {
+                for f in 0..nf {
+                    if in_shape([f, m, s]) {
+                        self.cell_at[(s * nm + m) * nf + f] = self.centroids.len() as u32;
+                        self.centroids.push([f, m, s].map(|c| 2 * c as i16 + 1));
+                    }
+                }
+            }
+        }
+        self.cell_planes.push(self.centroids.len());
+        self.node_at = vec![NONE; (nf + 1) * (nm + 1) * (ns + 1)];
+        for s in 0..=ns {
+            self.node_planes.push(self.nodes.len());
+            for m in 0..=nm {
+                for f in 0..=nf {
+                    let at = [f, m, s].map(|c| 2 * c as i16);
+                    let share = self.cells_round(at).count() as u8;
+                    if share > 0 {
+                        self.node_at[(s * (nm + 1) + m) * (nf + 1) + f] = self.nodes.len() as u32;
+                        self.nodes.push(at);
+                        self.share.push(share);
+                    }
+                }
+            }
+        }
+        self.node_planes.push(self.nodes.len());
+    }
+
+    /// Finds the runs.
+    fn connect(&mut self) {
+        let [nf, nm, ns] = self.cells;
+        for s in 0..ns {
+            for m in 0..nm {
+                let mut f = 0;
+                while f < nf {
+                    let row = |f: usize| self.cell_at[(s * nm + m) * nf + f];
+                    if row(f) == NONE {
+                        f += 1;
+                        continue;
+                    }
+                    let cells = (f..nf).take_while(|&f| row(f) != NONE).count();
+                    let node = |m: usize, s: usize| self.node_at[(s * (nm + 1) + m) * (nf + 1) + f];
+                    let rows = [node(m, s), node(m + 1, s), node(m, s + 1), node(m + 1, s + 1)];
+                    self.runs.push(Run { slow: s, rows, centre: row(f), cells });
+                    f += cells;
+                }
+            }
+        }
+    }
+
+    /// Cells that touch the node at these coordinates, with the number of the octant, 0 to 7.
+    pub fn cells_round(&self, at: [i16; 3]) -> impl Iterator<Item = (usize, u32)> + '_ {
+        (0..8).filter_map(move |octant| {
+            let side = |axis: usize| if octant >> axis & 1 == 1 { 1 } else { -1 };
+            let cell = self.cell([at[0] + side(0), at[1] + side(1), at[2] + side(2)]);
+            (cell != NONE).then_some((octant, cell))
+        })
+    }
+
+    /// The cell whose centroid has these coordinates.
+    #[must_use]
+    pub fn cell(&self, at: [i16; 3]) -> u32 {
+        let [nf, nm, ns] = self.cells;
+        let inside = |c: i16, n: usize| c >= 1 && (c as usize) < 2 * n;
+        if inside(at[0], nf) && inside(at[1], nm) && inside(at[2], ns) {
+            let [f, m, s] = at.map(|c| c as usize / 2);
+            self.cell_at[(s * nm + m) * nf + f]
+        } else {
+            NONE
+        }
+    }
+
+    /// The node at these coordinates.
+    #[must_use]
+    pub fn node(&self, at: [i16; 3]) -> u32 {
+        let [nf, nm, ns] = self.cells;
+        let inside = |c: i16, n: usize| c >= 0 && (c as usize) <= 2 * n;
+        if inside(at[0], nf) && inside(at[1], nm) && inside(at[2], ns) {
+            let [f, m, s] = at.map(|c| c as usize / 2);
+            self.node_at[(s * (nm + 1) + m) * (nf + 1) + f]
+        } else {
+            NONE
+        }
+    }
+
+    /// Position of these coordinates at the start.
+    #[must_use]
+    pub fn position(&self, at: [i16; 3]) -> [f64; 3] {
+        let mut x = self.origin;
+        for k in 0..3 {
+            let along = 0.5 * self.size[k] * f64::from(at[k]);
+            for (d, x) in x.iter_mut().enumerate() {
+                *x += along * self.axes[k][d];
+            }
+        }
+        x
+    }
+
+    /// Bytes that it takes.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        let places = self.nodes.capacity() + self.centroids.capacity();
+        let maps = self.node_at.capacity() + self.cell_at.capacity();
+        6 * places
+            + self.share.capacity()
+            + 4 * maps
+            + self.runs.capacity() * std::mem::size_of::<Run>()
+    }
+
+    /// Volume of a cell.
+    #[must_use]
+    pub fn cell_volume(&self) -> f64 {
+        self.size.iter().product()
+    }
+
+    /// Distance at which particles of the lattice touch, `2 beta h`: half the diagonal of a cell.
+    #[must_use]
+    pub fn contact_length(&self) -> f64 {
+        0.5 * 3f64.sqrt() * self.cell_volume().cbrt()
+    }
+}
+
+/// Axes of a body in the order fast, mid, slow.
+fn axis_order(cells: [usize; 3]) -> [usize; 3] {
+    let mut order = [0, 1, 2];
+    order.sort_by_key(|&axis| std::cmp::Reverse(cells[axis]));
+    let [longest, second, shortest] = order;
+    [longest, shortest, second]
+}
+
+/// The coordinate axes turned about `axis` by `angle`.
+#[must_use]
+pub fn rotation(axis: [f64; 3], angle: f64) -> [[f64; 3]; 3] {
+    let length = axis.iter().map(|a| a * a).sum::<f64>().sqrt();
+    let n = axis.map(|a| a / length);
+    let (sin, cos) = angle.sin_cos();
+    let turn = |v: [f64; 3]| {
+        let along = (0..3).map(|d| n[d] * v[d]).sum::<f64>() * (1.0 - cos);
+        let side = cross(n, v);
+        std::array::from_fn(|d| cos * v[d] + sin * side[d] + along * n[d])
+    };
+    [turn([1.0, 0.0, 0.0]), turn([0.0, 1.0, 0.0]), turn([0.0, 0.0, 1.0])]
+}
+
+/// Vector product.
+#[must_use]
+pub fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}

@@ -1,0 +1,426 @@
+//! The particles and elements of all bodies, numbered for streaming.
+//!
+//! All nodes come first, body by body in lattice order, then all centroids. Every body's part starts
+//! at a multiple of eight and is followed by at least eight inert particles, so that eight lanes can
+//! always be read. Elements stand in groups of up to eight neighbours along the fast axis; chunks of
+//! groups are whole slow planes, so that every other chunk touches particles of its own.
+
+use std::ops::Range;
+
+use super::eos::Eos;
+use super::lanes::{F8, LANES};
+use super::lattice::{CENTROID_SHARE, Lattice};
+use super::scene::{Body as BodyData, Scene};
+use super::strength::Solid;
+
+/// Fewest groups of a chunk.
+const CHUNK_GROUPS: usize = 40;
+
+/// What all particles and elements of a body share.
+#[derive(Debug, Clone)]
+pub struct Body {
+    /// Index of its material.
+    pub material: usize,
+    /// Equation of state.
+    pub eos: Eos,
+    /// Strength and failure of its elements.
+    pub solid: Solid,
+    /// Reference density `rho_o`.
+    pub rho_0: f64,
+    /// Its lattice.
+    pub lattice: Lattice,
+    /// Its nodes, inert ones excluded.
+    pub nodes: Range<usize>,
+    /// Its centroids, inert ones excluded.
+    pub centroids: Range<usize>,
+    /// Velocity of its translation.
+    pub velocity: [f64; 3],
+    /// Way of its translation so far.
+    pub way: [f64; 3],
+    /// Contact length `2 beta h` of its particles.
+    pub length: f64,
+    /// Volume of a cell.
+    pub cell_volume: f64,
+    /// The corners of a cell from its centre, slot by slot.
+    pub corners: [[f64; 3]; 8],
+    /// Reference volumes of the six pyramids, by the arithmetic of the elements.
+    pub pyramids: [f64; 6],
+}
+
+/// Up to eight elements, neighbours along the fast axis.
+#[derive(Debug, Clone)]
+pub struct Group {
+    /// First node of the rows (mid, slow) = (0,0), (1,0), (0,1), (1,1).
+    pub rows: [u32; 4],
+    /// First centroid.
+    pub centre: u32,
+    /// Index of the body.
+    pub body: u16,
+    /// Elements in it.
+    pub lanes: u8,
+    /// Elements that are a volume.
+    pub live: u8,
+    /// Elements that fail or have failed.
+    pub failed: u8,
+    /// Live elements that cease to be a volume at the end of the step.
+    pub dying: u8,
+    /// Whether anything has moved here yet.
+    pub awake: bool,
+    /// Plastic strain `E^p`: 11, 22, 33, 12, 13, 23.
+    pub plastic: [F8; 6],
+    /// Deviatoric stress `S` of the last step.
+    pub stress: [F8; 6],
+    /// Shear part of the first Piola-Kirchhoff stress, rows global.
+    pub piola: [F8; 9],
+    /// Tension of the six pyramids.
+    pub tension: [F8; 6],
+    /// Viscous force over separation of the eight bonds.
+    pub bonds: [F8; 8],
+    /// Effective plastic strain.
+    pub strain: F8,
+    /// Hardening and rate factor of the yield stress, softening apart.
+    pub flow: F8,
+    /// Plastic strain rate of the last flow.
+    pub rate: F8,
+    /// Damage `d = D`.
+    pub damage: F8,
+}
+
+/// Groups of whole slow planes of one body.
+#[derive(Debug, Clone)]
+pub struct Chunk {
+    /// Its groups.
+    pub groups: Range<usize>,
+    /// Nodes that they touch.
+    pub nodes: Range<usize>,
+    /// Centroids that they touch, counted among all particles.
+    pub centres: Range<usize>,
+    /// Body.
+    pub body: usize,
+}
+
+/// Particles of one kind of one body, inert ones included, worked on together.
+#[derive(Debug, Clone)]
+pub struct Piece {
+    /// Its particles.
+    pub range: Range<usize>,
+    /// How many of them are real.
+    pub real: usize,
+    /// Body.
+    pub body: usize,
+}
+
+/// Everything that does not change while particles move.
+#[derive(Debug, Clone)]
+pub struct Mesh {
+    /// Bodies.
+    pub bodies: Vec<Body>,
+    /// Chunks of groups.
+    pub chunks: Vec<Chunk>,
+    /// Pieces of particles.
+    pub pieces: Vec<Piece>,
+    /// Where the centroids begin.
+    pub first_centroid: usize,
+    /// Particles, inert ones included.
+    pub len: usize,
+    /// Real particles.
+    pub particles: usize,
+    /// Elements.
+    pub elements: usize,
+    /// Mass of every particle.
+    pub mass: Vec<f64>,
+    /// Cells round a node, or the share of a centroid: mass in sixteenths of a cell.
+    pub share: Vec<u8>,
+    /// Reference volume over the reference volume of live elements; zero without live elements.
+    pub ratio: Vec<f64>,
+    /// `V_o^(2/3)` by share, body by body.
+    pub areas: Vec<[f64; 9]>,
+    piece_at: Vec<u32>,
+}
+
+impl Mesh {
+    /// The mesh of a scene, and its elements.
+    #[must_use]
+    pub fn new(scene: &Scene) -> (Self, Vec<Group>) {
+        let lattices: Vec<Lattice> = scene.bodies.iter().map(Lattice::new).collect();
+        let mut next = 0;
+        let mut place = |n: usize| {
+            let start = next;
+            next = (start + n + 2 * LANES).next_multiple_of(LANES);
+            start..start + n
+        };
+        let nodes: Vec<_> = lattices.iter().map(|l| place(l.nodes.len())).collect();
+        let centroids: Vec<_> = lattices.iter().map(|l| place(l.centroids.len())).collect();
+        let first_centroid = centroids[0].start;
+        let len = next;
+        let mut mesh = Self {
+            bodies: Vec::new(),
+            chunks: Vec::new(),
+            pieces: Vec::new(),
+            first_centroid,
+            len,
+            particles: lattices.iter().map(|l| l.nodes.len() + l.centroids.len()).sum(),
+            elements: lattices.iter().map(|l| l.centroids.len()).sum(),
+            mass: vec![1.0; len],
+            share: vec![0; len],
+            ratio: vec![0.0; len],
+            areas: Vec::new(),
+            piece_at: vec![u32::MAX; len / LANES],
+        };
+        let mut groups = Vec::new();
+        for (k, lattice) in lattices.into_iter().enumerate() {
+            let body = Body::new(scene, &scene.bodies[k], lattice, [&nodes[k], &centroids[k]]);
+            mesh.weigh(&body);
+            let sixteenth = body.cell_volume / 16.0;
+            let area = |share: usize| (share as f64 * sixteenth).powf(2.0 / 3.0);
+            mesh.areas.push(std::array::from_fn(area));
+            mesh.group(&body, k, &mut groups);
+            mesh.bodies.push(body);
+        }
+        mesh.cut(&nodes);
+        mesh.cut(&centroids);
+        (mesh, groups)
+    }
+
+    fn weigh(&mut self, body: &Body) {
+        let unit = body.rho_0 * body.cell_volume / 16.0;
+        let shares = body.lattice.share.iter().copied();
+        let shares = shares.chain(std::iter::repeat_n(CENTROID_SHARE, body.centroids.len()));
+        for (i, share) in body.nodes.clone().chain(body.centroids.clone()).zip(shares) {
+            self.share[i] = share;
+            self.mass[i] = f64::from(share) * unit;
+            self.ratio[i] = 1.0;
+        }
+    }
+
+    fn group(&mut self, body: &Body, index: usize, groups: &mut Vec<Group>) {
+        let lattice = &body.lattice;
+        let mut chunk_start = groups.len();
+        let mut first_plane = 0;
+        let planes = lattice.cells[2];
+        let mut runs = lattice.runs.iter().peekable();
+        for plane in 0..planes {
+            while let Some(run) = runs.next_if(|run| run.slow == plane) {
+                for from in (0..run.cells).step_by(LANES) {
+                    let lanes = (run.cells - from).min(LANES);
+                    let rows = run.rows.map(|row| row + (from + body.nodes.start) as u32);
+                    let centre = run.centre + (from + body.centroids.start) as u32;
+                    groups.push(Group::new(rows, centre, index as u16, lanes, &body.solid));
+                }
+            }
+            if groups.len() - chunk_start >= CHUNK_GROUPS || plane + 1 == planes {
+                let node = |plane: usize| body.nodes.start + lattice.node_planes[plane];
+                let cell = |plane: usize| body.centroids.start + lattice.cell_planes[plane];
+                self.chunks.push(Chunk {
+                    groups: chunk_start..groups.len(),
+                    nodes: node(first_plane)..node(plane + 2),
+                    centres: cell(first_plane)..cell(plane + 1),
+                    body: index,
+                });
+                (chunk_start, first_plane) = (groups.len(), plane + 1);
+            }
+        }
+    }
+
+    /// Cuts ranges of particles, one a body, into pieces.
+    fn cut(&mut self, ranges: &[Range<usize>]) {
+        for (body, range) in ranges.iter().enumerate() {
+            for start in range.clone().step_by(super::columns::PIECE) {
+                let real = (range.end - start).min(super::columns::PIECE);
+                let end = start + real.next_multiple_of(LANES);
+                self.piece_at[start / LANES..end / LANES].fill(self.pieces.len() as u32);
+                self.pieces.push(Piece { range: start..end, real, body });
+            }
+        }
+    }
+
+    /// Takes the element of a centroid out of the volumes of its particles.
+    pub fn bury(&mut self, centre: u32) {
+        let (body, at) = self.place(centre as usize);
+        self.ratio[centre as usize] = 0.0;
+        for corner in 0..8 {
+            let side = |d: usize| if corner >> d & 1 == 1 { 1 } else { -1 };
+            let at = [at[0] + side(0), at[1] + side(1), at[2] + side(2)];
+            let own = &self.bodies[body];
+            let i = own.nodes.start + own.lattice.node(at) as usize;
+            let cells =
+                own.lattice.cells_round(at).map(|(_, cell)| own.centroids.start + cell as usize);
+            let live = cells.filter(|&cell| self.ratio[cell] > 0.0).count();
+            let ratio = f64::from(self.share[i]) / live as f64;
+            self.ratio[i] = if live > 0 { ratio } else { 0.0 };
+        }
+    }
+
+    /// Bytes that it takes.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        let lattices: usize = self.bodies.iter().map(|body| body.lattice.bytes()).sum();
+        16 * self.mass.capacity() + self.share.capacity() + lattices
+    }
+
+    /// Piece of a particle.
+    #[inline(always)]
+    #[must_use]
+    pub fn piece_of(&self, i: usize) -> usize {
+        self.piece_at[i / LANES] as usize
+    }
+
+    /// Body and half-cell coordinates of a particle.
+    #[must_use]
+    pub fn place(&self, i: usize) -> (usize, [i16; 3]) {
+        let by = |range: fn(&Body) -> &Range<usize>| {
+            self.bodies.partition_point(|body| range(body).end <= i)
+        };
+        if i < self.first_centroid {
+            let k = by(|body| &body.nodes);
+            (k, self.bodies[k].lattice.nodes[i - self.bodies[k].nodes.start])
+        } else {
+            let k = by(|body| &body.centroids);
+            (k, self.bodies[k].lattice.centroids[i - self.bodies[k].centroids.start])
+        }
+    }
+
+    /// Whether a particle can touch others: it is on a surface, or an element at it is dead.
+    #[must_use]
+    pub fn exposed(&self, i: usize) -> bool {
+        self.share[i] < CENTROID_SHARE || self.ratio[i] != 1.0
+    }
+
+    /// Particles of a body within two cells of these coordinates.
+    pub fn within_two_cells(&self, body: usize, at: [i16; 3]) -> impl Iterator<Item = usize> + '_ {
+        let own = &self.bodies[body];
+        let near = move |parity: i16| {
+            let axis = move |d: usize| (at[d] - 4..=at[d] + 4).filter(move |c| c & 1 == parity);
+            axis(0).flat_map(move |f| axis(1).flat_map(move |m| axis(2).map(move |s| [f, m, s])))
+        };
+        let some = |index: u32, start: usize| {
+            (index != super::lattice::NONE).then(|| start + index as usize)
+        };
+        let nodes = near(0).filter_map(move |at| some(own.lattice.node(at), own.nodes.start));
+        let cells = near(1).filter_map(move |at| some(own.lattice.cell(at), own.centroids.start));
+        nodes.chain(cells)
+    }
+
+    /// Whether particles at these coordinates of a body share a live element.
+    #[must_use]
+    pub fn bonded(&self, body: usize, a: [i16; 3], b: [i16; 3]) -> bool {
+        if (0..3).any(|d| (a[d] - b[d]).abs() > 2) {
+            return false;
+        }
+        let own = &self.bodies[body];
+        let live = |cell: u32| {
+            cell != super::lattice::NONE && self.ratio[own.centroids.start + cell as usize] > 0.0
+        };
+        match (a[0] & 1, b[0] & 1) {
+            (1, 1) => false,
+            (1, _) => (0..3).all(|d| (a[d] - b[d]).abs() == 1) && live(own.lattice.cell(a)),
+            (_, 1) => (0..3).all(|d| (a[d] - b[d]).abs() == 1) && live(own.lattice.cell(b)),
+            _ => own.lattice.cells_round(a).any(|(_, cell)| {
+                let at = own.lattice.centroids[cell as usize];
+                (0..3).all(|d| (at[d] - b[d]).abs() == 1) && live(cell)
+            }),
+        }
+    }
+
+    /// Velocity of the translation of one body relative to another's.
+    #[inline(always)]
+    #[must_use]
+    pub fn drift_of(&self, a: usize, b: usize) -> [f64; 3] {
+        let (a, b) = (&self.bodies[a].velocity, &self.bodies[b].velocity);
+        [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+    }
+
+    /// The real particles, in order.
+    pub fn real(&self) -> impl Iterator<Item = usize> + '_ {
+        let nodes = self.bodies.iter().flat_map(|b| b.nodes.clone());
+        nodes.chain(self.bodies.iter().flat_map(|b| b.centroids.clone()))
+    }
+}
+
+impl Body {
+    fn new(
+        scene: &Scene,
+        data: &BodyData,
+        lattice: Lattice,
+        [nodes, centroids]: [&Range<usize>; 2],
+    ) -> Self {
+        let index = scene.material_index(&data.material).unwrap_or_default();
+        let material = &scene.materials[index];
+        let eos = Eos::new(material);
+        let corners = corners(&lattice);
+        Self {
+            material: index,
+            eos,
+            solid: Solid::new(material, &scene.method, &lattice),
+            rho_0: material.density,
+            length: lattice.contact_length(),
+            cell_volume: lattice.cell_volume(),
+            pyramids: super::element::pyramid_volumes(&corners),
+            corners,
+            lattice,
+            nodes: nodes.clone(),
+            centroids: centroids.clone(),
+            velocity: data.velocity,
+            way: [0.0; 3],
+        }
+    }
+}
+
+impl Body {
+    /// Shortest edge of a cell.
+    #[inline(always)]
+    #[must_use]
+    pub fn edge(&self) -> f64 {
+        self.solid.edge
+    }
+
+    /// Sound speed of its particles in the reference state.
+    #[must_use]
+    pub fn sound(&self) -> f64 {
+        (self.solid.bulk / self.rho_0).sqrt()
+    }
+}
+
+/// Corners of a cell from its centre; slot `b1 + 2 b2 + 4 b3` for the bits along the axes.
+fn corners(lattice: &Lattice) -> [[f64; 3]; 8] {
+    std::array::from_fn(|slot| {
+        std::array::from_fn(|d| {
+            let along = |k: usize| {
+                let half = 0.5 * lattice.size[k] * lattice.axes[k][d];
+                if slot >> k & 1 == 1 { half } else { -half }
+            };
+            along(0) + along(1) + along(2)
+        })
+    })
+}
+
+impl Group {
+    fn new(rows: [u32; 4], centre: u32, body: u16, lanes: usize, solid: &Solid) -> Self {
+        Self {
+            rows,
+            centre,
+            body,
+            lanes: lanes as u8,
+            live: if lanes == LANES { u8::MAX } else { (1 << lanes) - 1 },
+            failed: 0,
+            dying: 0,
+            awake: false,
+            plastic: [F8::ZERO; 6],
+            stress: [F8::ZERO; 6],
+            piola: [F8::ZERO; 9],
+            tension: [F8::ZERO; 6],
+            bonds: [F8::ZERO; 8],
+            strain: F8::ZERO,
+            flow: F8::splat(solid.first_flow()),
+            rate: F8::ZERO,
+            damage: F8::ZERO,
+        }
+    }
+
+    /// Node of a slot of lane 0.
+    #[inline(always)]
+    #[must_use]
+    pub fn node(&self, slot: usize) -> usize {
+        self.rows[slot >> 1] as usize + (slot & 1)
+    }
+}

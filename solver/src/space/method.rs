@@ -1,0 +1,91 @@
+//! The numerical choices of a run in three dimensions, as plain data, and the presets.
+
+use serde::{Deserialize, Serialize};
+
+use crate::method::{Density, Heating, Integrator, Preset};
+
+/// Reading of the printed yield function, Eqs. (39)-(46).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum YieldNorm {
+    /// The uniaxial yield stress is `Y` at any stretch: von Mises.
+    Mises,
+    /// `Y` is the yield stress in shear, with `N^p` the identity at rest.
+    J2,
+    /// Eqs. (39)-(43) as printed: uniaxial yield at 2.12 `Y`.
+    AsPrinted,
+}
+
+/// How fast a failed element loses its strength, Eq. (47).
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Release {
+    /// Over this number of steps, `n_hat`.
+    Steps(f64),
+    /// Over the time in which sound crosses this number of elements.
+    Crossings(f64),
+}
+
+/// Every numerical choice of a run. Each can be overridden alone.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Method {
+    /// Density scheme.
+    pub density: Density,
+    /// Time integration.
+    pub integrator: Integrator,
+    /// Split of the viscous heat of free pairs.
+    pub heating: Heating,
+    /// Reading of the yield function.
+    pub yield_norm: YieldNorm,
+    /// Linear viscosity coefficient, `c_o` of Eq. (53).
+    pub visc_linear: f64,
+    /// Quadratic viscosity coefficient, `c_1` of Eq. (53).
+    pub visc_quad: f64,
+    /// Heat diffusion coefficient, `k_o` of Eq. (57); zero for none.
+    pub heat_coeff: f64,
+    /// Damping of the hourglass modes; zero for none.
+    pub hourglass: f64,
+    /// Tolerance of the contact condition (35): contact while
+    /// `zeta (rho/rho_o)^(1/3) < 1 + tolerance`.
+    pub contact_tolerance: f64,
+    /// Largest `zeta` of a contact.
+    pub contact_reach: f64,
+    /// Loss of strength of failed elements.
+    pub release: Release,
+    /// Whether a tensile strength of a material fails its elements.
+    pub spall: bool,
+    /// Time step over the limiters' own.
+    pub cfl: f64,
+}
+
+impl Preset {
+    /// The choices of the preset in three dimensions.
+    #[must_use]
+    pub fn space(self) -> Method {
+        let shared = Method {
+            density: Density::Hybrid,
+            integrator: Integrator::Compatible,
+            heating: Heating::Pair,
+            yield_norm: YieldNorm::Mises,
+            visc_linear: 0.3,
+            visc_quad: 0.0,
+            heat_coeff: 0.1,
+            hourglass: 0.0,
+            contact_tolerance: 0.06,
+            contact_reach: 1.12,
+            release: Release::Crossings(5.0),
+            spall: true,
+            cfl: 0.3,
+        };
+        match self {
+            Self::Paper => Method {
+                density: Density::Nonholonomic,
+                release: Release::Steps(20.0),
+                spall: false,
+                ..shared
+            },
+            Self::Default => shared,
+        }
+    }
+}

@@ -1,0 +1,22 @@
+//! The three-dimensional solver: particles at the nodes and centroids of hexahedra.
+
+pub mod columns;
+pub mod contacts;
+pub mod dispatch;
+pub mod element;
+pub mod eos;
+pub mod lanes;
+pub mod lattice;
+pub mod ledger;
+pub mod mesh;
+pub mod method;
+pub mod near;
+pub mod pass;
+pub mod scene;
+pub mod simulation;
+pub mod strength;
+pub mod sweep;
+pub mod walls;
+
+pub use scene::Scene;
+pub use simulation::Simulation;

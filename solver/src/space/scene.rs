@@ -1,0 +1,468 @@
+//! What is to be simulated in three dimensions, as plain data.
+
+use serde::{Deserialize, Serialize};
+
+use super::method::Method;
+use crate::error::SceneError;
+use crate::units::Units;
+
+/// A complete problem statement.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Scene {
+    /// Short name, for messages and records.
+    pub name: String,
+    /// Unit system of every number below.
+    pub units: Units,
+    /// Time at which the run ends, reached exactly.
+    pub stop_time: f64,
+    /// Numerical choices.
+    pub method: Method,
+    /// Plane walls.
+    #[serde(default)]
+    pub walls: Vec<Wall>,
+    /// Materials, named by the bodies.
+    pub materials: Vec<Material>,
+    /// Bodies.
+    pub bodies: Vec<Body>,
+}
+
+/// A rigid, frictionless wall at rest, normal to a coordinate axis.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Wall {
+    /// Its normal: 0, 1 or 2 for x, y or z.
+    pub axis: usize,
+    /// Its position on that axis.
+    pub position: f64,
+    /// On which side of it the material is.
+    pub material: Side,
+    /// What it does to particles that start on it.
+    pub hold: Hold,
+}
+
+/// A side of a wall.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Side {
+    /// At larger coordinates.
+    Above,
+    /// At smaller coordinates.
+    Below,
+}
+
+/// What a wall does to the nodes that start on it. Everything else it keeps on its side.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Hold {
+    /// They stay on it and slide: a symmetry plane, mirroring the body.
+    Mirror,
+    /// They may leave it: an anvil.
+    Rest,
+}
+
+/// A material.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Material {
+    /// Name, unique in the scene.
+    pub name: String,
+    /// Reference density `rho_o`.
+    pub density: f64,
+    /// Equation of state, Eq. (22).
+    pub eos: EosData,
+    /// Resistance to shear; none for a fluid, whose elements carry pressure alone.
+    #[serde(default)]
+    pub strength: Option<Strength>,
+    /// What makes its elements fail, Eq. (47).
+    #[serde(default)]
+    pub failure: Failure,
+}
+
+/// Constants of an equation of state.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum EosData {
+    /// Mie-Grueneisen on the shock Hugoniot `U_s = c0 + s u_p`.
+    MieGruneisen {
+        /// Bulk sound speed `c0`.
+        c0: f64,
+        /// Slope `s`.
+        s: f64,
+        /// Grueneisen coefficient at the reference density.
+        gamma_0: f64,
+        /// How it varies with the density.
+        law: GammaLaw,
+        /// Specific heat `c_v`.
+        c_v: f64,
+        /// Temperature of the reference state.
+        theta_0: f64,
+    },
+    /// Eq. (80): a gas, whose elements carry no tension.
+    IdealGas {
+        /// Ratio of specific heats.
+        adiabatic_index: f64,
+        /// Specific heat `c_v`.
+        c_v: f64,
+    },
+}
+
+/// How the Grueneisen coefficient varies with the density.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum GammaLaw {
+    /// `Gamma rho = gamma_0 rho_o`.
+    ConstantProduct,
+    /// Steinberg: `Gamma = (gamma_0 + b mu) / (1 + mu)`, `mu = rho/rho_o - 1`.
+    Steinberg(f64),
+}
+
+/// Resistance to shear.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Strength {
+    /// Shear modulus `mu` of Eq. (24).
+    pub shear_modulus: f64,
+    /// Yield stress; elastic without.
+    #[serde(default)]
+    pub flow: Option<Flow>,
+}
+
+/// A law of the yield stress `Y`.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Flow {
+    /// Eq. (44): `Y0 (1 + kappa eps)^alpha (1 - eta theta_H)`,
+    /// `theta_H = (theta - reference) / (melt - reference)` within 0 and 1.
+    Hardening {
+        /// Reference yield stress `Y_o`.
+        y_0: f64,
+        /// Hardening coefficient `kappa`.
+        kappa: f64,
+        /// Hardening exponent `alpha`.
+        alpha: f64,
+        /// Thermal softening coefficient `eta`; negative hardens.
+        eta: f64,
+        /// Reference temperature.
+        reference: f64,
+        /// Melt temperature.
+        melt: f64,
+    },
+    /// Johnson and Cook: `(a + b eps^n) (1 + c ln(rate / rate_0)) (1 - theta_H^m)`.
+    JohnsonCook {
+        /// Yield stress `A`.
+        a: f64,
+        /// Hardening `B`.
+        b: f64,
+        /// Hardening exponent `n`.
+        n: f64,
+        /// Rate coefficient `C`; no effect below the reference rate.
+        c: f64,
+        /// Reference strain rate, per unit of time of the scene.
+        rate_0: f64,
+        /// Exponent of the softening `m`.
+        m: f64,
+        /// Reference temperature.
+        reference: f64,
+        /// Melt temperature.
+        melt: f64,
+    },
+}
+
+/// Failure criteria of a material; absent ones are infinite or zero.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Failure {
+    /// Effective plastic strain, `eps_f`.
+    pub plastic_strain: Option<f64>,
+    /// Melt temperature `theta_m`.
+    pub melt: Option<f64>,
+    /// Smallest volume ratio `J_c` of an element.
+    pub compression: f64,
+    /// Tensile (spall) strength.
+    pub spall: Option<f64>,
+}
+
+impl Default for Failure {
+    fn default() -> Self {
+        Self { plastic_strain: None, melt: None, compression: 0.3, spall: None }
+    }
+}
+
+/// A body: a shape, filled with equal cells, particles at their nodes and centroids.
+///
+/// The cell size is such that the cells have exactly the volume of the shape.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Body {
+    /// Name, for histories.
+    pub name: String,
+    /// Name of its material.
+    pub material: String,
+    /// Shape.
+    pub shape: Shape,
+    /// Number of cells across the shape along its own axes.
+    pub cells: [usize; 3],
+    /// Where its centre is.
+    pub centre: [f64; 3],
+    /// Turn about this axis by this angle in degrees.
+    #[serde(default)]
+    pub turn: Turn,
+    /// Velocity.
+    pub velocity: [f64; 3],
+    /// Angular velocity about the centre.
+    #[serde(default)]
+    pub spin: [f64; 3],
+    /// Initial internal energy per mass.
+    #[serde(default)]
+    pub energy: f64,
+}
+
+/// A rotation about an axis.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Turn {
+    /// Axis; any length but zero.
+    pub axis: [f64; 3],
+    /// Angle in degrees.
+    pub degrees: f64,
+}
+
+impl Default for Turn {
+    fn default() -> Self {
+        Self { axis: [0.0, 0.0, 1.0], degrees: 0.0 }
+    }
+}
+
+/// Shape of a body before it is turned and moved.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Shape {
+    /// A box, plates included.
+    Box {
+        /// Edge lengths.
+        size: [f64; 3],
+    },
+    /// A cylinder along its third axis.
+    Cylinder {
+        /// Diameter.
+        diameter: f64,
+        /// Length.
+        length: f64,
+    },
+    /// A sphere.
+    Sphere {
+        /// Diameter.
+        diameter: f64,
+    },
+}
+
+impl Shape {
+    /// Volume.
+    #[must_use]
+    pub fn volume(&self) -> f64 {
+        use std::f64::consts::PI;
+        match *self {
+            Self::Box { size: [a, b, c] } => a * b * c,
+            Self::Cylinder { diameter, length } => PI / 4.0 * diameter * diameter * length,
+            Self::Sphere { diameter } => PI / 6.0 * diameter.powi(3),
+        }
+    }
+
+    /// Edge lengths of the smallest box around it.
+    #[must_use]
+    pub fn extent(&self) -> [f64; 3] {
+        match *self {
+            Self::Box { size } => size,
+            Self::Cylinder { diameter, length } => [diameter, diameter, length],
+            Self::Sphere { diameter } => [diameter; 3],
+        }
+    }
+}
+
+/// Longest edge of a cell over its shortest: particles are spheres, which unequal edges would not
+/// pack.
+const LONGEST_EDGE: f64 = 1.1;
+
+/// Most particles of a scene.
+const MAX_PARTICLES: usize = 50_000_000;
+
+impl Scene {
+    /// Index of the material called `name`.
+    #[must_use]
+    pub fn material_index(&self, name: &str) -> Option<usize> {
+        self.materials.iter().position(|m| m.name == name)
+    }
+
+    /// Checks everything that a simulation takes for granted.
+    ///
+    /// # Errors
+    /// The first value that cannot be used, with its key and the wanted form.
+    pub fn validate(&self) -> Result<(), SceneError> {
+        positive("stop_time", self.stop_time)?;
+        self.method.validate()?;
+        for (k, wall) in self.walls.iter().enumerate() {
+            finite(&format!("walls.{k}.position"), wall.position)?;
+            if wall.axis > 2 {
+                let wanted = "the axis of a wall is 0, 1 or 2";
+                return Err(SceneError::new(format!("walls.{k}.axis"), wall.axis, wanted));
+            }
+        }
+        for (k, material) in self.materials.iter().enumerate() {
+            material.validate(&format!("materials.{k}"))?;
+            if self.material_index(&material.name) != Some(k) {
+                let wanted = "names of materials must be unique";
+                return Err(SceneError::new(format!("materials.{k}.name"), &material.name, wanted));
+            }
+        }
+        if self.bodies.is_empty() || self.bodies.len() > 1000 {
+            let wanted = "a scene has from 1 to 1000 bodies";
+            return Err(SceneError::new("bodies", self.bodies.len(), wanted));
+        }
+        let mut particles = 0usize;
+        for (k, body) in self.bodies.iter().enumerate() {
+            let key = format!("bodies.{k}");
+            if self.material_index(&body.material).is_none() {
+                let wanted = "no material has that name";
+                return Err(SceneError::new(format!("{key}.material"), &body.material, wanted));
+            }
+            particles = particles.saturating_add(body.validate(&key)?);
+        }
+        if particles > MAX_PARTICLES {
+            let wanted = format!("{MAX_PARTICLES} particles are the most (about 20 GB)");
+            return Err(SceneError::new("bodies", format!("{particles} particles"), &wanted));
+        }
+        Ok(())
+    }
+}
+
+impl Method {
+    fn validate(&self) -> Result<(), SceneError> {
+        positive("method.cfl", self.cfl)?;
+        for (key, value) in [
+            ("method.visc_linear", self.visc_linear),
+            ("method.visc_quad", self.visc_quad),
+            ("method.heat_coeff", self.heat_coeff),
+            ("method.hourglass", self.hourglass),
+            ("method.contact_tolerance", self.contact_tolerance),
+        ] {
+            not_negative(key, value)?;
+        }
+        if !(1.0..1.3).contains(&self.contact_reach) {
+            let wanted = "it must be from 1 to 1.3: beyond, contacts reach through neighbours";
+            return Err(SceneError::new("method.contact_reach", self.contact_reach, wanted));
+        }
+        match self.release {
+            super::method::Release::Steps(n) => positive("method.release.steps", n),
+            super::method::Release::Crossings(n) => positive("method.release.crossings", n),
+        }
+    }
+}
+
+impl Material {
+    fn validate(&self, key: &str) -> Result<(), SceneError> {
+        positive(&format!("{key}.density"), self.density)?;
+        match self.eos {
+            EosData::MieGruneisen { c0, s, gamma_0, c_v, theta_0, .. } => {
+                let key = format!("{key}.eos.mie_gruneisen");
+                positive(&format!("{key}.c0"), c0)?;
+                not_negative(&format!("{key}.s"), s)?;
+                not_negative(&format!("{key}.gamma_0"), gamma_0)?;
+                positive(&format!("{key}.c_v"), c_v)?;
+                finite(&format!("{key}.theta_0"), theta_0)?;
+            }
+            EosData::IdealGas { adiabatic_index, c_v } => {
+                let key = format!("{key}.eos.ideal_gas");
+                positive(&format!("{key}.adiabatic_index"), adiabatic_index - 1.0)?;
+                positive(&format!("{key}.c_v"), c_v)?;
+            }
+        }
+        if let Some(strength) = &self.strength {
+            positive(&format!("{key}.strength.shear_modulus"), strength.shear_modulus)?;
+            match strength.flow {
+                Some(Flow::Hardening { y_0, kappa, alpha, eta, reference, melt }) => {
+                    let key = format!("{key}.strength.flow.hardening");
+                    not_negative(&format!("{key}.y_0"), y_0)?;
+                    not_negative(&format!("{key}.kappa"), kappa)?;
+                    not_negative(&format!("{key}.alpha"), alpha)?;
+                    finite(&format!("{key}.eta"), eta)?;
+                    positive(&format!("{key}.melt"), melt - reference)?;
+                }
+                Some(Flow::JohnsonCook { a, b, n, c, rate_0, m, reference, melt }) => {
+                    let key = format!("{key}.strength.flow.johnson_cook");
+                    not_negative(&format!("{key}.a"), a)?;
+                    not_negative(&format!("{key}.b"), b)?;
+                    positive(&format!("{key}.n"), n)?;
+                    not_negative(&format!("{key}.c"), c)?;
+                    positive(&format!("{key}.rate_0"), rate_0)?;
+                    positive(&format!("{key}.m"), m)?;
+                    positive(&format!("{key}.melt"), melt - reference)?;
+                }
+                None => {}
+            }
+        }
+        let failure = &self.failure;
+        not_negative(&format!("{key}.failure.compression"), failure.compression)?;
+        for (name, value) in [
+            ("plastic_strain", failure.plastic_strain),
+            ("melt", failure.melt),
+            ("spall", failure.spall),
+        ] {
+            if let Some(value) = value {
+                positive(&format!("{key}.failure.{name}"), value)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Body {
+    /// Checks the body; an upper bound of its particles.
+    fn validate(&self, key: &str) -> Result<usize, SceneError> {
+        for (axis, &n) in self.cells.iter().enumerate() {
+            if !(1..=16_000).contains(&n) {
+                let wanted = "a body has from 1 to 16000 cells across";
+                return Err(SceneError::new(format!("{key}.cells.{axis}"), n, wanted));
+            }
+        }
+        for axis in 0..3 {
+            positive(&format!("{key}.shape"), self.shape.extent()[axis])?;
+            finite(&format!("{key}.centre.{axis}"), self.centre[axis])?;
+            finite(&format!("{key}.velocity.{axis}"), self.velocity[axis])?;
+            finite(&format!("{key}.spin.{axis}"), self.spin[axis])?;
+            finite(&format!("{key}.turn.axis.{axis}"), self.turn.axis[axis])?;
+        }
+        positive(&format!("{key}.turn.axis"), self.turn.axis.iter().map(|a| a * a).sum())?;
+        finite(&format!("{key}.turn.degrees"), self.turn.degrees)?;
+        not_negative(&format!("{key}.energy"), self.energy)?;
+        let size = super::lattice::cell_size(self);
+        let longest = size.iter().copied().fold(0.0, f64::max);
+        let shortest = size.iter().copied().fold(f64::INFINITY, f64::min);
+        if longest > LONGEST_EDGE * shortest {
+            let given = format!("{size:?}, the edges of a cell,");
+            let wanted = format!("edges may differ by a factor of {LONGEST_EDGE} at most");
+            return Err(SceneError::new(format!("{key}.cells"), given, &wanted));
+        }
+        Ok(self.cells.iter().map(|n| n + 1).product::<usize>() * 2)
+    }
+}
+
+fn finite(key: &str, value: f64) -> Result<(), SceneError> {
+    if value.is_finite() { Ok(()) } else { Err(SceneError::new(key, value, "it must be finite")) }
+}
+
+fn positive(key: &str, value: f64) -> Result<(), SceneError> {
+    if value.is_finite() && value > 0.0 {
+        Ok(())
+    } else {
+        Err(SceneError::new(key, value, "it must be positive"))
+    }
+}
+
+fn not_negative(key: &str, value: f64) -> Result<(), SceneError> {
+    if value.is_finite() && value >= 0.0 {
+        Ok(())
+    } else {
+        Err(SceneError::new(key, value, "it may not be negative"))
+    }
+}

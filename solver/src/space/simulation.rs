@@ -1,0 +1,397 @@
+//! A scene in motion: the step, and what can be asked of it.
+
+use super::columns::{Derived, State, Sums, pieces};
+use super::contacts::Contacts;
+use super::dispatch::Instructions;
+use super::element::{Demand, Laws, Read};
+use super::lattice::cross;
+use super::ledger::Holdings;
+use super::mesh::{Group, Mesh};
+use super::method::Method;
+use super::pass::{Labour, Load, over_elements};
+use super::scene::Scene;
+use super::sweep::{Allowed, Kick, Respond};
+use super::walls::{Given, Wall};
+use crate::counters::Counters;
+use crate::error::{SceneError, StepError};
+use crate::method::Density;
+
+/// Largest growth of the time step.
+const GROWTH: f64 = 1.05;
+
+/// Smallest time step over the first one.
+const COLLAPSED: f64 = 1e-6;
+
+/// A scene in motion, in three dimensions.
+#[derive(Debug, Clone)]
+pub struct Simulation {
+    pub(super) mesh: Mesh,
+    pub(super) groups: Vec<Group>,
+    pub(super) state: State,
+    pub(super) derived: Derived,
+    pub(super) sums: Sums,
+    pub(super) contacts: Contacts,
+    pub(super) walls: Vec<Wall>,
+    pub(super) method: Method,
+    /// Pieces that were ever moved or pushed.
+    pub(super) active: Vec<bool>,
+    /// Particles that touch others.
+    touched: Vec<bool>,
+    /// What the last evaluation of the equation of state allows.
+    allowed: Allowed,
+    demand: Demand,
+    pub(super) time: f64,
+    /// Length of the last drift.
+    pub(super) dt: f64,
+    /// Length of the last kick.
+    pub(super) kick: f64,
+    pub(super) first_dt: f64,
+    /// Work of the particles on the elements' shear and tension so far.
+    pub(super) element_work: f64,
+    /// Heat of plastic flow and damage so far.
+    pub(super) element_heat: f64,
+    pub(super) initial: Holdings,
+    /// What the walls have given so far.
+    pub(super) walls_gave: Given,
+    pub(super) counters: Counters,
+    instructions: Instructions,
+    asleep: bool,
+    volumes: bool,
+}
+
+impl Simulation {
+    /// A scene at t = 0.
+    ///
+    /// # Errors
+    /// What [`Scene::validate`] finds.
+    pub fn new(scene: &Scene) -> Result<Self, SceneError> {
+        scene.validate()?;
+        let (mesh, groups) = Mesh::new(scene);
+        let volumes = scene.method.density == Density::Hybrid;
+        let mut state = State::zeros(mesh.len);
+        state.rho.fill(1.0);
+        for (body, data) in mesh.bodies.iter().zip(&scene.bodies) {
+            for i in body.nodes.clone().chain(body.centroids.clone()) {
+                state.rho[i] = body.rho_0;
+                state.u[i] = data.energy;
+                if data.spin != [0.0; 3] {
+                    let x = body.lattice.position(mesh.place(i).1);
+                    let v = cross(data.spin, std::array::from_fn(|d| x[d] - data.centre[d]));
+                    (state.vx[i], state.vy[i], state.vz[i]) = (v[0], v[1], v[2]);
+                }
+            }
+        }
+        let mut simulation = Self {
+            derived: Derived::zeros(mesh.len),
+            sums: Sums::zeros(mesh.len),
+            contacts: Contacts::new(&mesh, !volumes),
+            walls: Wall::all(scene, &mesh),
+            active: vec![true; mesh.pieces.len()],
+            touched: vec![false; mesh.len],
+            allowed: Allowed::ANYTHING,
+            demand: Demand::NONE,
+            method: scene.method,
+            time: 0.0,
+            dt: 0.0,
+            kick: 0.0,
+            first_dt: 0.0,
+            element_work: 0.0,
+            element_heat: 0.0,
+            initial: Holdings::default(),
+            walls_gave: Given::default(),
+            counters: Counters::default(),
+            instructions: Instructions::detect(),
+            asleep: true,
+            volumes,
+            mesh,
+            groups,
+            state,
+        };
+        simulation.respond();
+        simulation.active =
+            (0..simulation.mesh.pieces.len()).map(|p| simulation.stirs(p)).collect();
+        simulation.wake();
+        simulation.initial = simulation.balance().now;
+        Ok(simulation)
+    }
+
+    /// Computes material at rest as well, which changes no bit of the answer.
+    pub fn keep_awake(&mut self) {
+        self.active.fill(true);
+        self.groups.iter_mut().for_each(|group| group.awake = true);
+        self.asleep = false;
+    }
+
+    /// Whether anything moves in a piece, in the frame of its body, or is under pressure.
+    fn stirs(&self, piece: usize) -> bool {
+        let range = self.mesh.pieces[piece].range.clone();
+        let any = |column: &[f64]| column[range.clone()].iter().any(|&x| x != 0.0);
+        let state = &self.state;
+        any(&state.vx) || any(&state.vy) || any(&state.vz) || any(&self.derived.pressure)
+    }
+
+    /// Wakes groups that touch a stirring piece, and the pieces that they touch.
+    fn wake(&mut self) {
+        if !self.asleep {
+            return;
+        }
+        let stirring: Vec<bool> =
+            (0..self.active.len()).map(|p| self.active[p] && self.stirs(p)).collect();
+        self.asleep = false;
+        for group in self.groups.iter_mut().filter(|group| !group.awake) {
+            let last = u32::from(group.lanes);
+            let corners = group.rows.into_iter().flat_map(|r| [r, r + last]);
+            let all = corners.chain([group.centre, group.centre + last - 1]);
+            let own = all.map(|i| self.mesh.piece_of(i as usize));
+            if own.clone().any(|p| stirring[p]) {
+                group.awake = true;
+                own.for_each(|p| self.active[p] = true);
+            } else {
+                self.asleep = true;
+            }
+        }
+    }
+
+    /// Takes one step, at most to the time `until`: compatible leapfrog (decision 0012).
+    ///
+    /// # Errors
+    /// A numerical failure.
+    pub fn step(&mut self, until: f64) -> Result<(), StepError> {
+        self.contacts.refresh(&self.mesh, &self.state, &self.method, !self.volumes);
+        self.load();
+        let dt = self.elect(until)?;
+        self.kick(dt);
+        self.work();
+        self.respond();
+        self.time = if dt >= until - self.time { until } else { self.time + dt };
+        self.bury();
+        self.wake();
+        self.count();
+        self.check()
+    }
+
+    /// Steps until `time`, which is reached exactly.
+    ///
+    /// # Errors
+    /// The first numerical failure.
+    pub fn advance_to(&mut self, time: f64) -> Result<(), StepError> {
+        while self.time < time {
+            self.step(time)?;
+        }
+        Ok(())
+    }
+
+    /// Forces on all particles: elements, then contacts.
+    fn load(&mut self) {
+        let pass = Load {
+            laws: Laws {
+                visc_linear: self.method.visc_linear,
+                visc_quad: self.method.visc_quad,
+                heat_coeff: self.method.heat_coeff,
+                dt: self.dt,
+            },
+            read: Read {
+                displacement: [&self.state.dx, &self.state.dy, &self.state.dz],
+                velocity: [&self.state.vx, &self.state.vy, &self.state.vz],
+                grip: &self.derived.grip,
+                theta: &self.derived.theta,
+                sound: &self.derived.sound,
+            },
+            volumes: self.volumes,
+        };
+        let (mesh, groups) = (&self.mesh, &mut self.groups);
+        self.demand = over_elements(&pass, mesh, groups, self.sums.slices(), self.instructions);
+        self.element_heat += self.demand.heat;
+        self.contacts.push(
+            &self.mesh,
+            (&self.state, &self.derived),
+            (&self.method, self.dt),
+            (&mut self.sums, &mut self.touched, &mut self.active),
+        );
+    }
+
+    /// The length of the step: what sound, the density and the elements allow, and landing on `until`.
+    fn elect(&mut self, until: f64) -> Result<f64, StepError> {
+        let method = &self.method;
+        let viscous =
+            1.0 + method.visc_linear * (0.3 + 2.0 * method.visc_quad * self.demand.closing);
+        let mut dt = self.allowed.sound / viscous;
+        for body in &self.mesh.bodies {
+            dt = dt.min(body.edge() / (body.solid.sound * viscous));
+        }
+        if self.demand.rate > 0.0 {
+            dt = dt.min(1.0 / self.demand.rate);
+        }
+        let mut dt = (method.cfl * dt).min(self.allowed.density);
+        if self.dt > 0.0 {
+            dt = dt.min(GROWTH * self.dt);
+        } else {
+            self.first_dt = dt;
+        }
+        if dt.is_nan() || dt < COLLAPSED * self.first_dt {
+            let particle = self.mesh.pieces[self.allowed.piece].range.start;
+            let (value, floor) = (dt, COLLAPSED * self.first_dt);
+            let limiter = "sound or change of density";
+            return Err(StepError::TimeStep { particle, time: self.time, value, floor, limiter });
+        }
+        let left = until - self.time;
+        // The last two steps share what is left, so that none is tiny.
+        Ok(if dt >= left {
+            left
+        } else if 2.0 * dt > left {
+            0.5 * left
+        } else {
+            dt
+        })
+    }
+
+    /// Velocities at the middle of the next drift, Eq. (74), walls included.
+    fn kick(&mut self, dt: f64) {
+        self.kick = 0.5 * (self.dt + dt);
+        self.dt = dt;
+        let work = Kick {
+            mesh: &self.mesh,
+            active: &self.active,
+            kick: self.kick,
+            instructions: self.instructions,
+        };
+        let columns = (self.state.slices(), self.derived.slices(), self.sums.slices());
+        pieces(columns, 0, 0..self.mesh.pieces.len(), &work);
+        for wall in &self.walls {
+            let columns = (&mut self.state, &mut self.derived);
+            wall.keep(&self.mesh, &self.contacts, columns, dt, &mut self.walls_gave, |i| {
+                self.active[self.mesh.piece_of(i)] = true;
+                self.touched[i] = true;
+            });
+        }
+    }
+
+    /// Rates over the mean velocity of the step: what forces take from motion becomes heat, pressure
+    /// work and strain.
+    fn work(&mut self) {
+        let pass = Labour {
+            displacement: [&self.state.dx, &self.state.dy, &self.state.dz],
+            mean: [&self.derived.mx, &self.derived.my, &self.derived.mz],
+            kick: self.kick,
+            volumes: self.volumes,
+        };
+        let (mesh, groups) = (&self.mesh, &mut self.groups);
+        let power = over_elements(&pass, mesh, groups, self.sums.slices(), self.instructions);
+        self.element_work += self.kick * power;
+        self.contacts.work(&self.mesh, &self.derived, self.kick, &mut self.sums);
+    }
+
+    /// Ends the step, Eqs. (36), (58), (76), and evaluates the equation of state (22).
+    fn respond(&mut self) {
+        let work = Respond {
+            mesh: &self.mesh,
+            active: &self.active,
+            touched: &self.touched,
+            instructions: self.instructions,
+            kick: self.kick,
+            dt: self.dt,
+        };
+        let columns = (self.state.slices(), self.derived.slices(), self.sums.slices());
+        if let Some(allowed) = pieces(columns, 0, 0..self.mesh.pieces.len(), &work) {
+            self.allowed = allowed;
+        }
+        for body in &mut self.mesh.bodies {
+            for (way, velocity) in body.way.iter_mut().zip(body.velocity) {
+                *way += self.dt * velocity;
+            }
+        }
+        self.touched.fill(false);
+    }
+
+    /// Takes elements that died in the step out of the volumes, and lets their particles touch others.
+    fn bury(&mut self) {
+        if !self.demand.dying {
+            return;
+        }
+        for group in self.groups.iter_mut().filter(|group| group.dying != 0) {
+            for lane in (0..u32::from(group.lanes)).filter(|lane| group.dying >> lane & 1 == 1) {
+                self.mesh.bury(group.centre + lane);
+                let nodes = (0..8).map(|slot| group.node(slot) as u32 + lane);
+                for i in nodes.chain([group.centre + lane]) {
+                    self.contacts.expose(&self.mesh, i as usize);
+                }
+            }
+            group.live &= !group.dying;
+            group.dying = 0;
+        }
+    }
+
+    fn count(&mut self) {
+        let pieces = self.mesh.pieces.iter().zip(&self.active);
+        let moved: usize = pieces.filter(|(_, active)| **active).map(|(piece, _)| piece.real).sum();
+        self.counters.steps += 1;
+        self.counters.particle_steps += moved as u64;
+        self.counters.pairs += self.contacts.pairs() as u64;
+    }
+
+    /// Names the particle that is no longer a number.
+    fn check(&self) -> Result<(), StepError> {
+        if self.allowed.sane {
+            return Ok(());
+        }
+        let columns = self.state.named();
+        let bad = |column: &[f64]| self.mesh.real().find(|&i| !column[i].is_finite());
+        for (quantity, column) in columns {
+            if let Some(particle) = bad(column) {
+                let value = column[particle];
+                return Err(StepError::NotFinite { quantity, particle, time: self.time, value });
+            }
+        }
+        Ok(())
+    }
+
+    /// Present time.
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+
+    /// Number of particles, those at rest included.
+    #[must_use]
+    pub fn particles(&self) -> usize {
+        self.mesh.particles
+    }
+
+    /// Number of elements, dead ones included.
+    #[must_use]
+    pub fn elements(&self) -> usize {
+        self.mesh.elements
+    }
+
+    /// Work done so far.
+    #[must_use]
+    pub fn counters(&self) -> Counters {
+        self.counters
+    }
+
+    /// Length of the last step.
+    #[must_use]
+    pub fn last_step(&self) -> f64 {
+        self.dt
+    }
+
+    /// Elements that have failed, and those of them that are no volume any more.
+    #[must_use]
+    pub fn failed(&self) -> (usize, usize) {
+        let count = |f: fn(&Group) -> u32| self.groups.iter().map(f).sum::<u32>() as usize;
+        let dead = count(|g| u32::from(g.lanes) - g.live.count_ones());
+        (count(|g| g.failed.count_ones()), dead)
+    }
+
+    /// Bytes of memory that it holds.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        self.state.bytes()
+            + self.derived.bytes()
+            + self.sums.bytes()
+            + self.groups.capacity() * std::mem::size_of::<Group>()
+            + self.contacts.bytes()
+            + self.mesh.bytes()
+            + self.touched.capacity()
+    }
+}

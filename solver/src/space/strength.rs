@@ -1,0 +1,302 @@
+//! Resistance to shear: plastic flow, Eqs. (38)-(46), and what makes elements fail, Eq. (47).
+
+use super::lanes::{F8, LANES, M8};
+use super::lattice::Lattice;
+use super::method::{Method, Release, YieldNorm};
+use super::scene::{Flow, Material};
+
+/// A symmetric tensor: 11, 22, 33, 12, 13, 23.
+pub type Sym = [F8; 6];
+
+/// Sweeps of the return map after which it gives up; two are enough nearly always.
+const SWEEPS: usize = 20;
+
+/// Distance from the yield surface over the yield stress at which the return map stops.
+const LANDED: f64 = 1e-10;
+
+/// Plastic strain below which the slope of the hardening is not evaluated: a power of zero has none.
+const LEAST_STRAIN: f64 = 1e-5;
+
+/// Strength and failure of the elements of a body.
+#[derive(Debug, Clone, Copy)]
+pub struct Solid {
+    /// Shear modulus `mu`; zero for a fluid.
+    pub mu: f64,
+    /// Bulk modulus `K` in tension.
+    pub bulk: f64,
+    /// Yield stress; none if elastic.
+    flow: Option<Flow>,
+    norm: YieldNorm,
+    /// Failure strain `eps_f`, infinite if there is none.
+    strain: f64,
+    /// Melt temperature `theta_m`.
+    pub melt: f64,
+    /// Smallest Jacobian `J_c`.
+    pub compression: f64,
+    /// Tensile strength.
+    pub spall: f64,
+    release: Release,
+    /// Longitudinal sound speed of the reference state.
+    pub sound: f64,
+    /// Shortest edge of a cell.
+    pub edge: f64,
+}
+
+impl Solid {
+    /// The strength of a material on a lattice.
+    #[must_use]
+    pub fn new(material: &Material, method: &Method, lattice: &Lattice) -> Self {
+        let or_never = |value: Option<f64>| value.unwrap_or(f64::INFINITY);
+        let mu = material.strength.map_or(0.0, |s| s.shear_modulus);
+        let bulk = super::eos::Eos::new(material).bulk();
+        Self {
+            mu,
+            bulk,
+            flow: material.strength.and_then(|s| s.flow),
+            norm: method.yield_norm,
+            strain: or_never(material.failure.plastic_strain),
+            melt: or_never(material.failure.melt),
+            compression: material.failure.compression,
+            spall: or_never(material.failure.spall.filter(|_| method.spall)),
+            release: method.release,
+            sound: ((bulk + 4.0 / 3.0 * mu) / material.density).sqrt(),
+            edge: lattice.size.iter().copied().fold(f64::INFINITY, f64::min),
+        }
+    }
+
+    /// Yield stress of virgin material, softening apart; infinite if it never yields.
+    #[must_use]
+    pub fn first_flow(&self) -> f64 {
+        match self.flow {
+            Some(Flow::Hardening { y_0, .. }) => y_0,
+            Some(Flow::JohnsonCook { a, .. }) => a,
+            None => f64::INFINITY,
+        }
+    }
+
+    /// Whether it ever yields.
+    #[must_use]
+    pub fn yields(&self) -> bool {
+        self.flow.is_some()
+    }
+
+    /// Increase of the damage over a step of length `dt`, Eq. (47).
+    #[must_use]
+    pub fn damage_step(&self, dt: f64) -> f64 {
+        match self.release {
+            Release::Steps(n) => 1.0 / n,
+            Release::Crossings(n) => dt * self.sound / (n * self.edge),
+        }
+    }
+
+    /// Factor of the yield stress at a temperature.
+    #[inline(always)]
+    fn softening(&self, theta: F8) -> F8 {
+        let homologous = |reference: f64, melt: f64| {
+            let h = (theta - reference) * (1.0 / (melt - reference));
+            h.max(F8::ZERO).min(F8::splat(1.0))
+        };
+        match self.flow {
+            Some(Flow::Hardening { eta, reference, melt, .. }) => {
+                (1.0 - eta * homologous(reference, melt)).max(F8::ZERO)
+            }
+            Some(Flow::JohnsonCook { m, reference, melt, .. }) => {
+                let h = homologous(reference, melt);
+                if m == 1.0 { 1.0 - h } else { 1.0 - h.map(|h| h.powf(m)) }
+            }
+            None => F8::splat(1.0),
+        }
+    }
+
+    /// Yield stress without softening and its slope over the plastic strain.
+    fn harden(&self, strain: f64, rate: f64) -> (f64, f64) {
+        match self.flow {
+            Some(Flow::Hardening { y_0, kappa, alpha, .. }) => {
+                let base = 1.0 + kappa * strain;
+                let y = y_0 * base.powf(alpha);
+                (y, y * alpha * kappa / base)
+            }
+            Some(Flow::JohnsonCook { a, b, n, c, rate_0, .. }) => {
+                let factor = 1.0 + c * (rate / rate_0).max(1.0).ln();
+                let slope = b * n * strain.max(LEAST_STRAIN).powf(n - 1.0);
+                ((a + b * strain.max(0.0).powf(n)) * factor, slope * factor)
+            }
+            None => (f64::INFINITY, 0.0),
+        }
+    }
+
+    /// Squared factor between the norm of the effective stress and the yield stress.
+    #[inline(always)]
+    fn reading(&self, c_plastic: &Sym) -> F8 {
+        match self.norm {
+            YieldNorm::Mises => F8::splat(1.0),
+            YieldNorm::J2 => half_square(c_plastic) * (2.0 / 3.0),
+            YieldNorm::AsPrinted => half_square(c_plastic),
+        }
+    }
+
+    /// Yield stress in the norm (40) over `Y`.
+    fn level(&self) -> f64 {
+        match self.norm {
+            YieldNorm::Mises => 1.0 / 3f64.sqrt(),
+            YieldNorm::J2 | YieldNorm::AsPrinted => 1.0,
+        }
+    }
+
+    /// Flow of up to eight elements, Eqs. (38)-(46): brings the effective stress back to the yield
+    /// surface.
+    ///
+    /// The elastic strain is `total - plastic`; `modulus` is `2 (1 - d) mu` and `theta` the elements'
+    /// temperature. Only lanes of `live` flow. Returns the stress.
+    #[inline(always)]
+    pub fn flow(&self, total: &Sym, own: &mut Plastic<'_>, load: &Load) -> Sym {
+        let mut stress = stress_of(total, own.plastic, load.modulus);
+        let soft = self.softening(load.theta) * load.intact * self.level();
+        let c_plastic = c_of(own.plastic);
+        let driver = effective(&c_plastic, &stress);
+        let limit = *own.flow * soft;
+        let over = half_square(&driver).gt(limit * limit * self.reading(&c_plastic));
+        let yielding = over.bits() & load.live;
+        if yielding != 0 {
+            self.land(total, own, load, (soft, yielding));
+            stress = stress_of(total, own.plastic, load.modulus);
+        }
+        stress
+    }
+
+    /// Newton sweeps of the yielding lanes.
+    #[inline(never)]
+    fn land(&self, total: &Sym, own: &mut Plastic<'_>, load: &Load, (soft, yielding): (F8, u8)) {
+        let mask = M8::from_bits(yielding);
+        let (before, rate) = (*own.strain, *own.rate);
+        let tiny = F8::splat(1e-300);
+        for _ in 0..SWEEPS {
+            let stress = stress_of(total, own.plastic, load.modulus);
+            let c_plastic = c_of(own.plastic);
+            let scale = 1.0 / self.reading(&c_plastic).sqrt();
+            let driver = effective(&c_plastic, &stress).map(|s| s * scale);
+            let size = half_square(&driver).sqrt().max(tiny);
+            let slope = self.update(own, (&rate, yielding), &soft);
+            let gap = size - *own.flow * soft;
+            let near = LANDED * (*own.flow * soft) + 1e-13 * load.modulus;
+            let away = gap.gt(near).bits() | (-gap).gt(near).bits();
+            if away & yielding == 0 {
+                break;
+            }
+            let flow = symmetric_product(&c_plastic, &driver).map(|n| n * scale);
+            let normal = half_square(&flow) / (size * size);
+            let measure = self.measure(&flow, size);
+            let step = gap / (load.modulus * normal + slope * measure).max(tiny);
+            let step = F8::select(mask, step, F8::ZERO);
+            for (strain, flow) in own.plastic.iter_mut().zip(flow) {
+                *strain += step / size * flow;
+            }
+            *own.strain = (*own.strain + step * measure).max(before);
+        }
+        let flowed = (*own.strain - before) * (1.0 / load.dt.max(1e-300));
+        *own.rate = F8::select(mask, 0.5 * (rate + flowed), rate);
+    }
+
+    /// Effective plastic strain per increment of `lambda`: the equivalent strain for the von Mises
+    /// reading, the norm (45) otherwise.
+    #[inline(always)]
+    fn measure(&self, flow: &Sym, size: F8) -> F8 {
+        match self.norm {
+            YieldNorm::Mises => F8::splat(2.0 / 3f64.sqrt()),
+            YieldNorm::J2 | YieldNorm::AsPrinted => half_square(flow).sqrt() / size,
+        }
+    }
+
+    /// Sets the yield stress of the yielding lanes; its slope, softening included.
+    fn update(&self, own: &mut Plastic<'_>, (rate, yielding): (&F8, u8), soft: &F8) -> F8 {
+        let mut slope = F8::ZERO;
+        for k in (0..LANES).filter(|k| yielding >> k & 1 == 1) {
+            (own.flow.0[k], slope.0[k]) = self.harden(own.strain.0[k], rate.0[k]);
+        }
+        slope * *soft
+    }
+
+    /// Lanes that meet a failure criterion of strain or temperature.
+    #[inline(always)]
+    #[must_use]
+    pub fn spent(&self, strain: F8, theta: F8) -> u8 {
+        strain.gt(F8::splat(self.strain)).bits() | theta.gt(F8::splat(self.melt)).bits()
+    }
+}
+
+/// The plastic state of up to eight elements.
+#[derive(Debug)]
+pub struct Plastic<'a> {
+    /// Plastic strain `E^p`.
+    pub plastic: &'a mut Sym,
+    /// Effective plastic strain.
+    pub strain: &'a mut F8,
+    /// Yield stress, softening apart.
+    pub flow: &'a mut F8,
+    /// Plastic strain rate.
+    pub rate: &'a mut F8,
+}
+
+/// What the flow sees of its surroundings.
+#[derive(Debug, Clone, Copy)]
+pub struct Load {
+    /// `2 (1 - d) mu`.
+    pub modulus: F8,
+    /// `1 - d`.
+    pub intact: F8,
+    /// Temperature.
+    pub theta: F8,
+    /// Lanes that may flow.
+    pub live: u8,
+    /// Length of the last step.
+    pub dt: f64,
+}
+
+#[inline(always)]
+fn stress_of(total: &Sym, plastic: &Sym, modulus: F8) -> Sym {
+    std::array::from_fn(|k| modulus * (total[k] - plastic[k]))
+}
+
+/// `C^p = I + 2 E^p`.
+#[inline(always)]
+fn c_of(plastic: &Sym) -> Sym {
+    std::array::from_fn(|k| 2.0 * plastic[k] + if k < 3 { 1.0 } else { 0.0 })
+}
+
+/// `T : T / 2`, the square of the norm (40).
+#[inline(always)]
+#[must_use]
+pub fn half_square(t: &Sym) -> F8 {
+    0.5 * (t[0] * t[0] + t[1] * t[1] + t[2] * t[2]) + t[3] * t[3] + t[4] * t[4] + t[5] * t[5]
+}
+
+/// `A : B` of symmetric tensors.
+#[inline(always)]
+#[must_use]
+pub fn contract(a: &Sym, b: &Sym) -> F8 {
+    (a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) + 2.0 * (a[3] * b[3] + a[4] * b[4] + a[5] * b[5])
+}
+
+/// `(A B + B A) / 2`.
+#[inline(always)]
+fn symmetric_product(a: &Sym, b: &Sym) -> Sym {
+    [
+        a[0] * b[0] + a[3] * b[3] + a[4] * b[4],
+        a[3] * b[3] + a[1] * b[1] + a[5] * b[5],
+        a[4] * b[4] + a[5] * b[5] + a[2] * b[2],
+        0.5 * ((a[0] + a[1]) * b[3] + a[3] * (b[0] + b[1]) + a[4] * b[5] + a[5] * b[4]),
+        0.5 * ((a[0] + a[2]) * b[4] + a[4] * (b[0] + b[2]) + a[3] * b[5] + a[5] * b[3]),
+        0.5 * ((a[1] + a[2]) * b[5] + a[5] * (b[1] + b[2]) + a[3] * b[4] + a[4] * b[3]),
+    ]
+}
+
+/// Deviator of the symmetric product: the effective stress (39) without its norm.
+#[inline(always)]
+fn effective(c_plastic: &Sym, stress: &Sym) -> Sym {
+    let mut t = symmetric_product(c_plastic, stress);
+    let mean = (t[0] + t[1] + t[2]) * (1.0 / 3.0);
+    for diagonal in &mut t[..3] {
+        *diagonal -= mean;
+    }
+    t
+}

@@ -1,0 +1,294 @@
+//! The two sweeps over particles: the response to the last step, and the kick.
+
+use super::columns::{DerivedSlices, StateSlices, SumsSlices, Work};
+use super::dispatch::{Instructions, Kernel};
+use super::lanes::{F8, LANES, M8};
+use super::mesh::{Body, Mesh, Piece};
+
+/// Lowest density over the reference density.
+const THINNEST: f64 = 0.3;
+
+/// Largest relative change of the density in a step, under pressure.
+const DENSEST_STEP: f64 = 0.08;
+
+/// Rate at which a free fragment loses its compression, in sound crossings of its contact length.
+const RELAXATION: f64 = 0.07;
+
+/// Density over the reference density at which a free fragment stops expanding.
+const RELAXED: f64 = 0.8;
+
+/// The time step that a particle allows.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Allowed {
+    /// By sound.
+    pub sound: f64,
+    /// Piece that decides.
+    pub piece: usize,
+    /// By the change of density.
+    pub density: f64,
+    /// Whether everything is a number.
+    pub sane: bool,
+}
+
+impl Allowed {
+    /// By nothing.
+    pub const ANYTHING: Self =
+        Self { sound: f64::INFINITY, piece: 0, density: f64::INFINITY, sane: true };
+
+    fn and(self, other: Self) -> Self {
+        let first = self.sound.min(self.density) <= other.sound.min(other.density);
+        Self {
+            sound: self.sound.min(other.sound),
+            density: self.density.min(other.density),
+            piece: if first { self.piece } else { other.piece },
+            sane: self.sane && other.sane,
+        }
+    }
+}
+
+/// Ends the last step and evaluates the equation of state.
+pub struct Respond<'a> {
+    /// Mesh.
+    pub mesh: &'a Mesh,
+    /// Pieces to be worked on.
+    pub active: &'a [bool],
+    /// Particles that touched others.
+    pub touched: &'a [bool],
+    /// Instructions.
+    pub instructions: Instructions,
+    /// Length of the last kick.
+    pub kick: f64,
+    /// Length of the last drift.
+    pub dt: f64,
+}
+
+type Columns<'a> = (StateSlices<'a>, DerivedSlices<'a>, SumsSlices<'a>);
+
+impl<'c> Work<Columns<'c>> for Respond<'_> {
+    type Output = Allowed;
+
+    fn start(&self, piece: usize) -> usize {
+        self.mesh.pieces[piece].range.start
+    }
+
+    fn run(&self, piece: usize, columns: Columns<'c>) -> Allowed {
+        if !self.active[piece] {
+            return Allowed { piece, ..Allowed::ANYTHING };
+        }
+        let (state, derived, sums) = columns;
+        let own = &self.mesh.pieces[piece];
+        let body = &self.mesh.bodies[own.body];
+        let range = own.range.clone();
+        let kernel = RespondPiece {
+            piece: own,
+            body,
+            mass: &self.mesh.mass[range.clone()],
+            ratio: &self.mesh.ratio[range.clone()],
+            touched: &self.touched[range],
+            columns: (state, derived, sums),
+            kick: self.kick,
+            dt: self.dt,
+        };
+        Allowed { piece, ..self.instructions.run(kernel) }
+    }
+
+    fn join(&self, low: Allowed, high: Allowed) -> Allowed {
+        low.and(high)
+    }
+}
+
+struct RespondPiece<'a> {
+    piece: &'a Piece,
+    body: &'a Body,
+    mass: &'a [f64],
+    ratio: &'a [f64],
+    touched: &'a [bool],
+    columns: Columns<'a>,
+    kick: f64,
+    dt: f64,
+}
+
+impl Kernel for RespondPiece<'_> {
+    type Output = Allowed;
+
+    #[inline(always)]
+    fn run(mut self) -> Allowed {
+        let mut allowed = Allowed::ANYTHING;
+        for at in (0..self.piece.range.len()).step_by(LANES) {
+            let lane = self.eight(at);
+            allowed = allowed.and(lane);
+        }
+        allowed
+    }
+}
+
+impl RespondPiece<'_> {
+    #[inline(always)]
+    fn eight(&mut self, at: usize) -> Allowed {
+        let (state, derived, sums) = &mut self.columns;
+        let (kick, dt) = (self.kick, self.dt);
+        let mass = F8::load(self.mass, at);
+        let ratio = F8::load(self.ratio, at);
+        let zero = F8::ZERO;
+
+        // End of the last step: Eqs. (36), (58) and (76).
+        let volume_rate = F8::load(sums.volume_rate, at);
+        let mut rho_rate = F8::load(sums.rho_rate, at) - F8::load(derived.dilate, at) * volume_rate;
+        let alone = ratio.lt(F8::splat(1e-9)).bits();
+        if alone != 0 {
+            let free = free_lanes(self.body, (&self.touched[at..], alone), derived, at);
+            rho_rate = F8::select(free, free_rate(self.body, derived, at), rho_rate);
+        }
+        let work = F8::load(sums.heat, at) - kick * (F8::load(derived.grip, at) * volume_rate);
+        let gain = work / mass;
+        let rho = F8::load(state.rho, at) + kick * rho_rate;
+        let rho = rho.max(F8::splat(THINNEST * self.body.rho_0));
+        let u = F8::load(state.u, at) + gain;
+        let u_rate = if kick > 0.0 { gain * (1.0 / kick) } else { zero };
+        rho.store(state.rho, at);
+        u.store(state.u, at);
+        rho_rate.store(state.rho_rate, at);
+        u_rate.store(state.u_rate, at);
+        let volume = F8::load(sums.volume, at) + dt * volume_rate;
+        volume.store(state.volume, at);
+        let mut finite = u + rho;
+        for (x, v) in [
+            (&mut *state.dx, &*state.vx),
+            (&mut *state.dy, &*state.vy),
+            (&mut *state.dz, &*state.vz),
+        ] {
+            let moved = F8::load(x, at) + dt * F8::load(v, at);
+            moved.store(x, at);
+            finite += moved;
+        }
+        for column in [
+            &mut *sums.fx,
+            &mut *sums.fy,
+            &mut *sums.fz,
+            &mut *sums.volume,
+            &mut *sums.volume_rate,
+            &mut *sums.heat,
+            &mut *sums.rho_rate,
+        ] {
+            zero.store(column, at);
+        }
+
+        // State at the time of the positions: Eq. (22).
+        let rho = (rho + (0.5 * dt) * rho_rate).max(F8::splat(THINNEST * self.body.rho_0));
+        let response = self.body.eos.respond(rho, u + (0.5 * dt) * u_rate);
+        let whole = mass * (1.0 / self.body.rho_0) + ratio * volume;
+        let some = ratio.gt(zero);
+        let dilate = F8::select(some, rho / whole, zero);
+        let per_density = response.pressure * mass / (rho * rho);
+        let sound = response.sound_squared.sqrt();
+        rho.store(derived.rho, at);
+        response.pressure.store(derived.pressure, at);
+        (per_density * dilate).store(derived.grip, at);
+        dilate.store(derived.dilate, at);
+        response.theta.store(derived.theta, at);
+        sound.store(derived.sound, at);
+
+        // What it allows.
+        let spacing = (F8::splat(self.body.rho_0) / rho).min(F8::splat(1.0));
+        let crossing = spacing / sound.max(F8::splat(1e-300));
+        let change = rho / rho_rate.map(f64::abs).max(F8::splat(1e-300));
+        let pressed = response.pressure.gt(zero);
+        let change = F8::select(pressed, change, F8::splat(f64::INFINITY));
+        Allowed {
+            sound: self.body.edge() * crossing.least(),
+            density: DENSEST_STEP * change.least(),
+            piece: 0,
+            sane: finite.0.iter().all(|x| x.is_finite()),
+        }
+    }
+}
+
+/// Lanes without elements, contacts and wall that are under pressure.
+#[inline(always)]
+fn free_lanes(
+    body: &Body,
+    (touched, alone): (&[bool], u8),
+    derived: &DerivedSlices<'_>,
+    at: usize,
+) -> M8 {
+    let mut out = [false; LANES];
+    for k in 0..LANES {
+        let dense = derived.rho[at + k] > RELAXED * body.rho_0;
+        let pressed = derived.pressure[at + k] > 0.0;
+        out[k] = alone >> k & 1 == 1 && !touched[k] && pressed && dense;
+    }
+    M8(out)
+}
+
+/// Rate of a fragment that nothing holds together.
+#[inline(always)]
+fn free_rate(body: &Body, derived: &DerivedSlices<'_>, at: usize) -> F8 {
+    let crossing = F8::load(derived.sound, at) * (1.0 / body.length);
+    -(RELAXATION * crossing * F8::load(derived.rho, at))
+}
+
+/// New velocities, Eq. (74), and the mean velocities of the step.
+pub struct Kick<'a> {
+    /// Mesh.
+    pub mesh: &'a Mesh,
+    /// Pieces to be worked on.
+    pub active: &'a [bool],
+    /// Length of the kick.
+    pub kick: f64,
+    /// Instructions.
+    pub instructions: Instructions,
+}
+
+impl<'c> Work<Columns<'c>> for Kick<'_> {
+    type Output = ();
+
+    fn start(&self, piece: usize) -> usize {
+        self.mesh.pieces[piece].range.start
+    }
+
+    fn run(&self, piece: usize, (state, derived, sums): Columns<'c>) {
+        if self.active[piece] {
+            let range = self.mesh.pieces[piece].range.clone();
+            let len = range.len();
+            let mass = &self.mesh.mass[range];
+            self.instructions.run(KickPiece {
+                mass,
+                len,
+                kick: self.kick,
+                columns: (state, derived, sums),
+            });
+        }
+    }
+
+    fn join(&self, (): (), (): ()) {}
+}
+
+struct KickPiece<'a> {
+    mass: &'a [f64],
+    len: usize,
+    kick: f64,
+    columns: Columns<'a>,
+}
+
+impl Kernel for KickPiece<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let (state, derived, sums) = self.columns;
+        let half = 0.5 * self.kick;
+        for at in (0..self.len).step_by(LANES) {
+            let per_mass = half / F8::load(self.mass, at);
+            for (v, mean, force) in [
+                (&mut *state.vx, &mut *derived.mx, &*sums.fx),
+                (&mut *state.vy, &mut *derived.my, &*sums.fy),
+                (&mut *state.vz, &mut *derived.mz, &*sums.fz),
+            ] {
+                let gain = per_mass * F8::load(force, at);
+                let middle = F8::load(v, at) + gain;
+                middle.store(mean, at);
+                (middle + gain).store(v, at);
+            }
+        }
+    }
+}

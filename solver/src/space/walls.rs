@@ -1,0 +1,121 @@
+//! Rigid, frictionless walls: they give back whatever would cross them, and their impulse is booked.
+
+use super::columns::{Derived, State};
+use super::contacts::Contacts;
+use super::mesh::Mesh;
+use super::scene::{Hold, Scene, Side};
+
+/// A wall and the nodes that slide on it.
+#[derive(Debug, Clone)]
+pub struct Wall {
+    axis: usize,
+    position: f64,
+    /// 1 if the material is above.
+    side: f64,
+    /// Nodes on a plane of symmetry.
+    held: Vec<u32>,
+}
+
+/// What walls have given.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Given {
+    /// Impulse.
+    pub impulse: [f64; 3],
+    /// Its moment about the origin.
+    pub moment: [f64; 3],
+    /// Work.
+    pub work: f64,
+}
+
+impl Wall {
+    /// The walls of a scene.
+    #[must_use]
+    pub fn all(scene: &Scene, mesh: &Mesh) -> Vec<Self> {
+        let one = |wall: &super::scene::Wall| {
+            let mut held = Vec::new();
+            for body in mesh.bodies.iter().filter(|_| wall.hold == Hold::Mirror) {
+                for (k, &at) in body.lattice.nodes.iter().enumerate() {
+                    let x = body.lattice.position(at)[wall.axis];
+                    if (x - wall.position).abs() < 1e-6 * body.length {
+                        held.push((body.nodes.start + k) as u32);
+                    }
+                }
+            }
+            let side = if wall.material == Side::Above { 1.0 } else { -1.0 };
+            Self { axis: wall.axis, position: wall.position, side, held }
+        };
+        scene.walls.iter().map(one).collect()
+    }
+
+    /// Keeps particles on their side over a step of length `dt`; they stop at the wall at most.
+    /// Velocities are those after the kick. `seen` is told of every particle that was stopped.
+    pub fn keep(
+        &self,
+        mesh: &Mesh,
+        contacts: &Contacts,
+        (state, derived): (&mut State, &mut Derived),
+        dt: f64,
+        given: &mut Given,
+        mut seen: impl FnMut(usize),
+    ) {
+        let axis = self.axis;
+        for (i, body, x) in contacts.along(axis) {
+            let v = &velocity(state)[axis];
+            let whole = mesh.bodies[body].velocity[axis];
+            let gap = self.side * (x - self.position);
+            let speed = self.side * (v[i] + whole);
+            if gap + dt * speed < 0.0 {
+                // To the wall and no further; what is beyond it already stops.
+                let wanted = self.side * (-gap / dt).min(0.0) - whole;
+                self.set((i, body), wanted, mesh, (state, derived), given);
+                seen(i);
+            }
+        }
+        for &i in &self.held {
+            let i = i as usize;
+            let body = mesh.place(i).0;
+            let wanted = -mesh.bodies[body].velocity[axis];
+            self.set((i, body), wanted, mesh, (state, derived), given);
+        }
+    }
+
+    /// Sets the velocity of a particle normal to the wall and books what that takes.
+    fn set(
+        &self,
+        (i, body): (usize, usize),
+        wanted: f64,
+        mesh: &Mesh,
+        (state, derived): (&mut State, &mut Derived),
+        given: &mut Given,
+    ) {
+        let axis = self.axis;
+        let place = mesh.bodies[body].lattice.position(mesh.place(i).1);
+        let own = [state.dx[i], state.dy[i], state.dz[i]];
+        let way = mesh.bodies[body].way;
+        let x: [f64; 3] = std::array::from_fn(|d| place[d] + (way[d] + own[d]));
+        let v = match axis {
+            0 => &mut state.vx[i],
+            1 => &mut state.vy[i],
+            _ => &mut state.vz[i],
+        };
+        let gain = wanted - *v;
+        *v = wanted;
+        let mean = match axis {
+            0 => &mut derived.mx[i],
+            1 => &mut derived.my[i],
+            _ => &mut derived.mz[i],
+        };
+        *mean += 0.5 * gain;
+        let mean = *mean;
+        let impulse = mesh.mass[i] * gain;
+        given.impulse[axis] += impulse;
+        given.work += impulse * (mean + mesh.bodies[body].velocity[axis]);
+        let (next, last) = ((axis + 1) % 3, (axis + 2) % 3);
+        given.moment[next] += x[last] * impulse;
+        given.moment[last] -= x[next] * impulse;
+    }
+}
+
+fn velocity(state: &State) -> [&Vec<f64>; 3] {
+    [&state.vx, &state.vy, &state.vz]
+}
