@@ -3,11 +3,26 @@
 //! Units are whatever consistent set the caller uses; every formula is dimensionally homogeneous.
 //! Nothing here panics on input: constructors return [`InputError`] and solutions are then total.
 
+pub mod beam;
 pub mod collapse;
 pub mod collision;
+pub mod elastic_limit;
+pub mod gruneisen;
 pub mod heat;
+pub mod hugoniot;
+pub mod kidder;
+pub mod lattice;
 pub mod noh;
+mod numerics;
+pub mod piston;
+pub mod release;
 pub mod riemann;
+pub mod saltzman;
+pub mod sedov;
+pub mod spall;
+pub mod strength;
+pub mod taylor;
+pub mod verney;
 pub mod waves;
 
 use std::fmt;

@@ -6,3 +6,4 @@ mod common;
 mod convergence;
 mod names;
 mod report;
+mod tables;
