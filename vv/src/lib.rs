@@ -1,6 +1,7 @@
 //! The harness of Whipple: cases, exact solutions, norms, claims, records and the report.
 
 pub mod cases;
+pub mod checkpoint;
 pub mod claims;
 pub mod cli;
 pub mod convergence;
@@ -18,3 +19,5 @@ pub mod report;
 pub mod run;
 pub mod suggest;
 pub mod suite;
+pub mod vtk;
+mod xml;

@@ -3,6 +3,7 @@
 
 use super::canvas::UNITS;
 use super::model::Point;
+use crate::xml::escape;
 use std::fmt::Write as _;
 
 /// Finishes a drawing of the given size in pixels; `caption` becomes its accessible name.
@@ -97,10 +98,6 @@ fn path(points: &str, end: &str) -> Option<String> {
     }
     data.push_str(end);
     Some(data)
-}
-
-fn escape(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;")
 }
 
 #[cfg(test)]

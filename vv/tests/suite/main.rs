@@ -1,9 +1,15 @@
 //! Tests of the harness through its public interface and its program, as one binary so that it
 //! links once.
 
+mod checkpoint;
+mod checkpoint_damage;
+mod checkpoint_rotation;
 mod cli;
 mod common;
 mod convergence;
 mod names;
 mod report;
 mod tables;
+mod vtk;
+mod vtk_collection;
+mod vtk_reader;
