@@ -12,6 +12,7 @@ pub mod files;
 pub mod godunov;
 pub mod norms;
 pub mod overrides;
+pub mod paint;
 pub mod plots;
 pub mod record;
 pub mod references;

@@ -20,6 +20,7 @@ pub use axes::superscript;
 pub use model::{
     Along, Axis, Dash, Figure, Layer, MAX_SERIES, Marker, Panel, Point, Scale, Series, SlopeShape,
 };
+pub(crate) use raster::fonts;
 pub use raster::svg_to_png;
 pub use style::{THEME, themed};
 

@@ -26,7 +26,8 @@ pub fn svg_to_png(svg: &str, scale: f32) -> Result<Vec<u8>, PlotError> {
     pixmap.encode_png().map_err(|e| PlotError::Draw(e.into()))
 }
 
-fn fonts() -> Arc<fontdb::Database> {
+/// The bundled fonts, loaded once.
+pub(crate) fn fonts() -> Arc<fontdb::Database> {
     static LOADED: OnceLock<Arc<fontdb::Database>> = OnceLock::new();
     let load = || {
         let mut fonts = fontdb::Database::new();
