@@ -181,23 +181,6 @@ mod tests {
         Beam::new([10.0, side], [2.07, 0.29], 7.83).unwrap()
     }
 
-    #[test]
-    fn reproduces_the_reference_table() {
-        // `beam_frequencies.csv`: beta L and the frequency in kHz of the example.
-        let rows = [
-            [[1.875_104_07, 0.415_292_9], [4.694_091_13, 2.602_596], [7.854_757_44, 7.287_346]],
-            [[4.730_040_74, 2.642_613], [7.853_204_62, 7.284_465], [10.995_607_8, 14.280_46]],
-            [[PI, 1.165_745], [2.0 * PI, 4.662_98], [3.0 * PI, 10.491_7]],
-        ];
-        for (support, row) in ALL.into_iter().zip(rows) {
-            for (mode, [beta, frequency]) in (1..).zip(row) {
-                assert_relative_eq!(support.root(mode).unwrap(), beta, max_relative = 5e-9);
-                let found = 1e3 * steel(0.5).euler_bernoulli(support, mode).unwrap();
-                assert_relative_eq!(found, frequency, max_relative = 2e-6);
-            }
-        }
-    }
-
     /// The frequency equation of Huang (1961) for free ends, of which the even and odd conditions
     /// are the factors.
     #[test]

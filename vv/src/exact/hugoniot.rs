@@ -164,66 +164,7 @@ impl PlanarImpact {
 mod tests {
     use super::super::testing::cases;
     use super::*;
-    use approx::assert_relative_eq;
     use proptest::prelude::*;
-
-    fn material(name: &str) -> Hugoniot {
-        let [rho0, c0, s] = match name {
-            "w_alloy_17.6" => [17.6, 0.403, 1.237],
-            "steel_paper_a" => [7.87, 0.4578, 1.33],
-            "al_6061_t6" => [2.703, 0.524, 1.40],
-            "al_paper_2.70" => [2.70, 0.5386, 1.339],
-            _ => [1.58, 0.246, 1.60],
-        };
-        Hugoniot::new(rho0, c0, s).unwrap()
-    }
-
-    #[test]
-    fn reproduces_rows_of_the_hugoniot_table() {
-        // `hugoniot_table.csv`, speeds in km/s there and in cm/us here.
-        let rows = [
-            ("w_alloy_17.6", [0.05, 0.464_85, 0.409_068, 19.721_25, 0.892_438_4]),
-            ("w_alloy_17.6", [0.60, 1.1452, 12.093_31, 36.969_04, 0.476_074]),
-            ("steel_paper_a", [0.10, 0.5908, 0.464_959_6, 9.473_504, 0.830_738]),
-        ];
-        for (name, [up, us, pressure, density, ratio]) in rows {
-            let state = material(name).at_particle_speed(up).unwrap();
-            assert_relative_eq!(state.shock_speed, us, max_relative = 1e-12);
-            assert_relative_eq!(state.pressure, pressure, max_relative = 1e-6);
-            assert_relative_eq!(state.density, density, max_relative = 2e-7);
-            assert_relative_eq!(state.volume_ratio, ratio, max_relative = 1e-6);
-            assert_relative_eq!(state.energy, up * up / 2.0);
-        }
-    }
-
-    #[test]
-    fn reproduces_rows_of_the_impact_table() {
-        // `planar_impact_match.csv`: V, interface velocity, pressure, both shock speeds, densities.
-        let rows = [
-            ("al_6061_t6", "al_6061_t6", [0.67, 0.335, 0.899_166_5, 0.993, 0.993, 4.079_147]),
-            (
-                "w_alloy_17.6",
-                "steel_paper_a",
-                [0.15, 0.096_275_96, 0.443_891_5, 0.469_456_6, 0.585_847, 9.417_665],
-            ),
-            (
-                "al_paper_2.70",
-                "rcc",
-                [0.7, 0.433_626_8, 0.643_887_6, 0.895_273_7, 0.939_802_9, 2.933_542],
-            ),
-        ];
-        for (impactor, target, [velocity, u, pressure, us_i, us_t, density]) in rows {
-            let impact =
-                PlanarImpact::new(&material(impactor), &material(target), velocity).unwrap();
-            assert_relative_eq!(impact.interface_velocity, u, max_relative = 1e-6);
-            assert_relative_eq!(impact.pressure, pressure, max_relative = 1e-6);
-            assert_relative_eq!(impact.impactor.shock_speed, us_i, max_relative = 1e-6);
-            assert_relative_eq!(impact.target.shock_speed, us_t, max_relative = 1e-6);
-            assert_relative_eq!(impact.target.density, density, max_relative = 1e-6);
-            let laboratory = velocity - impact.impactor.shock_speed;
-            assert_relative_eq!(impact.impactor_shock_velocity, laboratory);
-        }
-    }
 
     #[test]
     fn refuses_nonsense() {

@@ -191,26 +191,6 @@ mod tests {
         integrate(path, gate, steps).unwrap().ratio
     }
 
-    /// `bcc_uniaxial_density.csv`: compression, `rho_exact`, `rho_switched`.
-    #[test]
-    fn follows_the_switched_branch_of_the_reference() {
-        let rows = [
-            [0.03, 1.030_928, 1.030_295],
-            [0.18, 1.219_512, 1.189_405],
-            [0.21, 1.265_823, 1.224_277],
-            [0.42, 1.724_138, 1.727_171],
-            [0.60, 2.5, 3.432_116],
-        ];
-        for [compression, exact, switched] in rows {
-            let path = Path::Uniaxial(1.0 - compression);
-            for gate in [Gate::open(0.0), Gate::closed(0.0)] {
-                let state = integrate(path, gate.unwrap(), 300_000).unwrap();
-                assert_relative_eq!(state.ratio, switched, epsilon = 4e-6);
-                assert_relative_eq!(state.exact, exact, epsilon = 6e-7);
-            }
-        }
-    }
-
     /// The first shell alone, `((2 + x^2)/3)^(-3/2)`, up to the contact of the second.
     #[test]
     fn the_first_shell_is_exact_before_the_second_meets() {

@@ -84,7 +84,7 @@ mod tests {
     use approx::assert_relative_eq;
     use proptest::prelude::*;
 
-    /// `taylor_impact.csv`, 6061-T6 at 373 m/s: 23.47 mm to 16.51 mm. Wilkins and Guinan quote
+    /// 6061-T6 at 373 m/s, 23.47 mm to 16.51 mm (Wilkins and Guinan 1973, recalled), who quote
     /// about 4 kbar, above the static 2.9 kbar.
     #[test]
     fn gives_the_order_of_a_measured_yield() {

@@ -165,6 +165,7 @@ fn elastic_plastic_pistons() {
         ] {
             worst.see(&format!("{id} {name}"), found, get(name));
         }
+        worst.see(&format!("{id} deviator"), b.stress - b.pressure, 2.0 / 3.0 * get("yield"));
     }
     worst.within(1e-10);
 }
@@ -221,22 +222,26 @@ fn density_of_a_squeezed_lattice() {
     for row in rows(&read("bcc_uniaxial_density.csv")) {
         let (compression, place) = (row.get("compression"), row.text("compression"));
         let path = Path::Uniaxial(1.0 - compression);
-        let state = integrate(path, Gate::closed(0.0).unwrap(), STEPS).unwrap();
-        worst.see(&place, state.ratio, row.get("rho_switched"));
-        worst.see(&place, state.exact, row.get("rho_exact"));
-        // Below the compression at which the second shell meets the contact test.
+        let [open, closed] = [Gate::open(0.0), Gate::closed(0.0)]
+            .map(|gate| integrate(path, gate.unwrap(), STEPS).unwrap());
+        for state in [open, closed] {
+            worst.see(&place, state.ratio, row.get("rho_switched"));
+            worst.see(&place, state.exact, row.get("rho_exact"));
+        }
+        // Below the compression at which the second shell meets the contact test. The first step
+        // begins on the threshold of the first shell, which the open gate misses.
         if compression < 0.1835 {
             let shell = ((2.0 + (1.0 - compression).powi(2)) / 3.0).powf(-1.5);
-            first.see(&place, state.ratio, shell);
+            first.see(&place, closed.ratio, shell);
         }
     }
     // Six digits in the table; the switching of contacts is resolved to first order in the step.
-    worst.within(3e-6);
+    worst.within(4e-6);
     first.within(1e-10);
 }
 
 /// Steps of the integration along a squeeze.
-const STEPS: u32 = 600_000;
+const STEPS: u32 = 300_000;
 
 #[test]
 fn noh_implosions() {
