@@ -11,13 +11,16 @@ use super::columns::{Derived, State, Sums};
 use super::lattice::NONE;
 use super::mesh::Mesh;
 use super::method::Method;
-use super::near::{PairList, Points, Reach};
+use super::near::{DEBRIS, EXPOSED, PairList, Points, Reach};
 
 /// Pairs that one task evaluates.
 const BLOCK: usize = 4096;
 
 /// Margin of the list over the reach of contacts, in contact lengths.
 const SKIN: f64 = 0.8;
+
+/// Half cells between parts of a body that may touch by folding.
+const FOLD: i16 = 12;
 
 /// Overlap beyond which the force of a contact rises no more, as a share of the distance of contact.
 const DEEPEST: f64 = 0.8;
@@ -31,7 +34,7 @@ pub struct Contacts {
     reference: [Vec<f64>; 3],
     position: [Vec<f64>; 3],
     length: Vec<f32>,
-    exposed: Vec<bool>,
+    flags: Vec<u8>,
     body: Vec<u16>,
     place: Vec<[i16; 3]>,
     list: PairList,
@@ -101,10 +104,13 @@ impl Contacts {
     pub fn expose(&mut self, mesh: &Mesh, i: usize) {
         let (body, place) = mesh.place(i);
         let member = self.admit(mesh, i);
-        if self.exposed[member] {
+        let debris = if mesh.whole(i) { 0 } else { DEBRIS };
+        self.changed |= self.flags[member] & DEBRIS != debris;
+        if self.flags[member] & EXPOSED != 0 {
+            self.flags[member] |= debris;
             return;
         }
-        self.exposed[member] = true;
+        self.flags[member] |= EXPOSED | debris;
         self.changed = true;
         for near in mesh.within_two_cells(body, place) {
             self.admit(mesh, near);
@@ -126,7 +132,7 @@ impl Contacts {
             self.position[d].push(x[d]);
         }
         self.length.push(mesh.bodies[body].length as f32);
-        self.exposed.push(false);
+        self.flags.push(0);
         self.body.push(body as u16);
         self.place.push(place);
         member
@@ -171,19 +177,25 @@ impl Contacts {
             y: &self.position[1],
             z: &self.position[2],
             length: &self.length,
-            exposed: &self.exposed,
+            flags: &self.flags,
             body: &self.body,
+            lattice: (!everyone).then_some(&self.place[..]),
         };
         if !self.changed && !self.list.is_stale(&points) {
             return false;
         }
         self.changed = false;
         let reach = Reach { factor: method.contact_reach, skin: SKIN * self.longest };
+        let (place, flags) = (&self.place, &self.flags);
         let keep = |a: u32, b: u32| {
             let (a, b) = (a as usize, b as usize);
-            everyone
-                || self.body[a] != self.body[b]
-                || !mesh.bonded(self.body[a] as usize, self.place[a], self.place[b])
+            if everyone || body[a] != body[b] {
+                return true;
+            }
+            // Live material carries its own pressure: only the far ends of a body that folds touch.
+            let span = (0..3).map(|d| (place[a][d] - place[b][d]).abs()).max();
+            let together = span <= Some(FOLD) && (flags[a] | flags[b]) & DEBRIS == 0;
+            !together && !mesh.bonded(body[a] as usize, place[a], place[b])
         };
         self.list.rebuild(&points, reach, keep);
         true

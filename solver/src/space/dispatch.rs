@@ -1,16 +1,19 @@
-//! The widest vectors that the processor has, chosen at run time: the only `unsafe` code.
+//! The widest vectors that the processor has, chosen at run time: with [`super::wide`] the only
+//! `unsafe` code.
 //!
 //! A kernel is inlined into a function compiled for a set of instructions. Its arithmetic is the same
-//! in each (see [`crate::space::lanes`]): the choice changes the speed and no bit of the answer.
+//! in each (see [`super::lanes`]): the choice changes the speed and no bit of the answer.
 
 #![allow(unsafe_code)]
+
+use super::lanes::{F8, Lanes};
 
 /// A loop over groups of eight.
 pub trait Kernel {
     /// What it gives.
     type Output;
     /// Runs it; implementations are to be inlined.
-    fn run(self) -> Self::Output;
+    fn run<F: Lanes>(self) -> Self::Output;
 }
 
 /// Instructions that a processor has.
@@ -50,7 +53,7 @@ impl Instructions {
     #[inline]
     pub fn run<K: Kernel>(self, kernel: K) -> K::Output {
         match self {
-            Self::Baseline => kernel.run(),
+            Self::Baseline => kernel.run::<F8>(),
             // SAFETY: these variants are made by `detect` alone, which has found the instructions.
             #[cfg(target_arch = "x86_64")]
             Self::Avx2 => unsafe { avx2(kernel) },
@@ -64,11 +67,11 @@ impl Instructions {
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
 unsafe fn avx2<K: Kernel>(kernel: K) -> K::Output {
-    kernel.run()
+    kernel.run::<F8>()
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx512bw")]
 unsafe fn avx512<K: Kernel>(kernel: K) -> K::Output {
-    kernel.run()
+    kernel.run::<super::wide::W8>()
 }

@@ -6,9 +6,11 @@
 //! translation of the body, so that a body at rest in its own frame is exactly free of force.
 
 use super::columns::SumsSlices;
-use super::lanes::{F8, LANES, M8};
+use super::lanes::{F8, LANES, Lanes, Mask, each};
 use super::mesh::{Body, Group};
-use super::strength::{Load, Plastic, Sym, contract};
+use super::method::Method;
+use super::strength::{Flowing, Load, Sym, contract};
+use crate::method::Viscosity;
 
 /// Corners A, B, C, D of the pyramids' outer faces, seen from outside against the clock.
 pub const FACES: [[usize; 4]; 6] =
@@ -26,7 +28,7 @@ const CRUSHED: f64 = 0.2;
 /// Expansion at which a failed element ceases to count as a volume.
 const OPEN: f64 = 1.2;
 
-type V3 = [F8; 3];
+type V3<F> = [F; 3];
 
 /// What elements read of the particles.
 #[derive(Debug, Clone, Copy)]
@@ -41,6 +43,8 @@ pub struct Read<'a> {
     pub theta: &'a [f64],
     /// Sound speeds.
     pub sound: &'a [f64],
+    /// Densities.
+    pub rho: &'a [f64],
 }
 
 /// Where elements of a chunk add to the sums of its particles.
@@ -59,12 +63,10 @@ pub struct Sink<'a> {
 /// What the elements of a scene have in common.
 #[derive(Debug, Clone, Copy)]
 pub struct Laws {
-    /// `c_o` of Eq. (53).
-    pub visc_linear: f64,
-    /// `c_1` of Eq. (53).
-    pub visc_quad: f64,
-    /// `k_o` of Eq. (57).
-    pub heat_coeff: f64,
+    /// Numerical choices.
+    pub method: Method,
+    /// Whether elements carry the pressure of their particles.
+    pub volumes: bool,
     /// Length of the last step.
     pub dt: f64,
 }
@@ -72,10 +74,8 @@ pub struct Laws {
 /// What elements ask of the time step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Demand {
-    /// Largest rate at which longitudinal waves cross an element.
+    /// Largest inverse of the longest stable step.
     pub rate: f64,
-    /// Largest closing speed of a bond over the sound speed.
-    pub closing: f64,
     /// Whether an element is to die after the step.
     pub dying: bool,
     /// Heat of plastic flow and damage.
@@ -84,14 +84,13 @@ pub struct Demand {
 
 impl Demand {
     /// Of nothing.
-    pub const NONE: Self = Self { rate: 0.0, closing: 0.0, dying: false, heat: 0.0 };
+    pub const NONE: Self = Self { rate: 0.0, dying: false, heat: 0.0 };
 
     /// The stricter.
     #[must_use]
     pub fn and(self, other: Self) -> Self {
         Self {
             rate: self.rate.max(other.rate),
-            closing: self.closing.max(other.closing),
             dying: self.dying || other.dying,
             heat: self.heat + other.heat,
         }
@@ -99,35 +98,124 @@ impl Demand {
 }
 
 #[inline(always)]
-fn sub(a: &V3, b: &V3) -> V3 {
+fn sub<F: Lanes>(a: &V3<F>, b: &V3<F>) -> V3<F> {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
 #[inline(always)]
-fn dot(a: &V3, b: &V3) -> F8 {
+fn dot<F: Lanes>(a: &V3<F>, b: &V3<F>) -> F {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 #[inline(always)]
-fn cross(a: &V3, b: &V3) -> V3 {
+fn cross<F: Lanes>(a: &V3<F>, b: &V3<F>) -> V3<F> {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
-#[inline(always)]
-fn add_to(to: &mut V3, what: &V3, factor: F8) {
-    for d in 0..3 {
-        to[d] += factor * what[d];
+/// A pyramid from the centroid to a face.
+#[derive(Debug, Clone, Copy)]
+struct Pyramid<F> {
+    /// From the centroid to the middle of the face.
+    w: V3<F>,
+    /// Diagonals of the face.
+    e: V3<F>,
+    g: V3<F>,
+    /// Twice the area of the face, outwards.
+    area: V3<F>,
+    /// Volume over the reference volume, less one, times the reference volume.
+    growth: F,
+}
+
+impl<F: Lanes> Pyramid<F> {
+    #[inline(always)]
+    fn nothing() -> Self {
+        let none = [F::zero(); 3];
+        Self { w: none, e: none, g: none, area: none, growth: F::zero() }
+    }
+
+    #[inline(always)]
+    fn new(y: &[V3<F>; 9], [a, b, c, d]: [usize; 4], reference: f64) -> Self {
+        let mut w = [F::zero(); 3];
+        for (k, w) in w.iter_mut().enumerate() {
+            *w = ((y[a][k] + y[b][k]) + (y[c][k] + y[d][k])) * 0.25 - y[CENTRE][k];
+        }
+        let (e, g) = (sub(&y[c], &y[a]), sub(&y[d], &y[b]));
+        let area = cross(&e, &g);
+        // Exact for the bilinear face; nothing where nothing has moved.
+        let growth = dot(&w, &area) * (1.0 / 6.0) - reference;
+        Self { w, e, g, area, growth }
+    }
+
+    /// Rate of the volume.
+    #[inline(always)]
+    fn rate(&self, v: &[V3<F>; 9], face: [usize; 4]) -> F {
+        let [a, b, c, d] = face;
+        let mut w = [F::zero(); 3];
+        for (k, w) in w.iter_mut().enumerate() {
+            *w = ((v[a][k] + v[b][k]) + (v[c][k] + v[d][k])) * 0.25 - v[CENTRE][k];
+        }
+        let (e, g) = (sub(&v[c], &v[a]), sub(&v[d], &v[b]));
+        let turned = dot(&e, &cross(&self.g, &self.w)) + dot(&g, &cross(&self.w, &self.e));
+        (dot(&w, &self.area) + turned) * (1.0 / 6.0)
+    }
+
+    /// Adds `push` times the gradient of the volume.
+    #[inline(always)]
+    fn push(&self, [a, b, c, d]: [usize; 4], push: F, force: &mut [V3<F>; 9]) {
+        let sixth = push * (1.0 / 6.0);
+        let (gw, we) = (cross(&self.g, &self.w), cross(&self.w, &self.e));
+        for k in 0..3 {
+            let fourth = self.area[k] * (sixth * 0.25);
+            let (gw, we) = (gw[k] * sixth, we[k] * sixth);
+            force[CENTRE][k] -= self.area[k] * sixth;
+            force[a][k] += fourth - gw;
+            force[c][k] += fourth + gw;
+            force[b][k] += fourth - we;
+            force[d][k] += fourth + we;
+        }
     }
 }
 
-/// Edges of a pyramid: from the centroid to the middle of the face, and the face's diagonals.
+/// Weights of a pyramid for the corners of its own face, on top of those for all corners, and for all
+/// corners.
 #[inline(always)]
-fn pyramid(y: &[V3; 9], [a, b, c, d]: [usize; 4]) -> (V3, V3, V3) {
-    let mut w = [F8::ZERO; 3];
-    for (k, w) in w.iter_mut().enumerate() {
-        *w = 0.25 * ((y[a][k] + y[b][k]) + (y[c][k] + y[d][k])) - y[CENTRE][k];
+fn corner_weights(balance: f64) -> [f64; 2] {
+    [0.125 * (1.0 + 2.0 * balance), -0.125 * balance]
+}
+
+/// Shares of nine particles in six pyramids.
+#[inline(always)]
+fn shares<F: Lanes>(pyramids: &[F; 6], balance: f64) -> [F; 9] {
+    let [own, other] = corner_weights(balance);
+    let all =
+        ((pyramids[0] + pyramids[1]) + (pyramids[2] + pyramids[3])) + (pyramids[4] + pyramids[5]);
+    let mut share = [all * other; 9];
+    share[CENTRE] = all * 0.5;
+    for (k, face) in FACES.into_iter().enumerate() {
+        let part = pyramids[k] * own;
+        for slot in face {
+            share[slot] += part;
+        }
     }
-    (w, sub(&y[c], &y[a]), sub(&y[d], &y[b]))
+    share
+}
+
+/// Square of twice the rate at which sound crosses the lowest pyramid, twice its height.
+#[inline(always)]
+fn crossing_squared<F: Lanes>(pyramids: &[Pyramid<F>; 6], body: &Body, sound: &[F; 9]) -> F {
+    let mut steepest = F::zero();
+    for (k, pyramid) in pyramids.iter().enumerate() {
+        let volume = pyramid.growth + body.pyramids[k];
+        let thin = dot(&pyramid.area, &pyramid.area) / (volume * volume);
+        steepest = steepest.max(thin);
+    }
+    let mut fastest = sound[CENTRE];
+    for sound in &sound[..8] {
+        fastest = fastest.max(*sound);
+    }
+    // Twice over 6 V / |s|, with shear in the wave speed.
+    let factor = body.stiffening() / 9.0;
+    steepest * fastest * fastest * factor
 }
 
 /// Volumes of the pyramids of a cell with these corners about its centre.
@@ -137,41 +225,84 @@ pub fn pyramid_volumes(corners: &[[f64; 3]; 8]) -> [f64; 6] {
     for (slot, corner) in corners.iter().enumerate() {
         y[slot] = corner.map(F8::splat);
     }
-    FACES.map(|face| {
-        let (w, e, g) = pyramid(&y, face);
-        (dot(&w, &cross(&e, &g)) * (1.0 / 6.0)).0[0]
-    })
+    FACES.map(|face| Pyramid::new(&y, face, 0.0).growth.0[0])
+}
+
+/// Forces and heat of nine particles.
+struct Loads<F> {
+    force: [V3<F>; 9],
+    heat: [F; 9],
+}
+
+impl<F: Lanes> Loads<F> {
+    /// A force along a bond, on the corner and against the centroid.
+    #[inline(always)]
+    fn pull(&mut self, slot: usize, r: &V3<F>, bond: F) {
+        for d in 0..3 {
+            let f = bond * r[d];
+            self.force[slot][d] += f;
+            self.force[CENTRE][d] -= f;
+        }
+    }
+
+    /// Heat from the corner to the centroid.
+    #[inline(always)]
+    fn conduct(&mut self, slot: usize, flux: F) {
+        self.heat[slot] -= flux;
+        self.heat[CENTRE] += flux;
+    }
+}
+
+/// What the bonds of up to eight elements see of their particles.
+struct Seen<'a, F> {
+    y: &'a [V3<F>; 9],
+    v: &'a [V3<F>; 9],
+    sound: &'a [F; 9],
+    theta: &'a [F; 9],
+}
+
+impl<F: Lanes> Seen<'_, F> {
+    /// Separation and velocity of a corner from the centroid.
+    #[inline(always)]
+    fn bond(&self, slot: usize) -> (V3<F>, V3<F>) {
+        (sub(&self.y[slot], &self.y[CENTRE]), sub(&self.v[slot], &self.v[CENTRE]))
+    }
 }
 
 impl Group {
     /// A column at the nine slots.
     #[inline(always)]
-    fn gather(&self, column: &[f64]) -> [F8; 9] {
-        std::array::from_fn(|slot| {
+    fn gather<F: Lanes>(&self, column: &[f64]) -> [F; 9] {
+        each(|slot| {
             let at = if slot == CENTRE { self.centre as usize } else { self.node(slot) };
-            F8::load(column, at)
+            F::load(column, at)
         })
     }
 
     /// A vector column at the nine slots.
     #[inline(always)]
-    fn gather_vector(&self, columns: [&[f64]; 3]) -> [V3; 9] {
-        let [x, y, z] = columns.map(|column| self.gather(column));
-        std::array::from_fn(|slot| [x[slot], y[slot], z[slot]])
+    fn gather_vector<F: Lanes>(&self, columns: [&[f64]; 3]) -> [V3<F>; 9] {
+        let mut out = [[F::zero(); 3]; 9];
+        for (d, column) in columns.into_iter().enumerate() {
+            let own: [F; 9] = self.gather(column);
+            for slot in 0..9 {
+                out[slot][d] = own[slot];
+            }
+        }
+        out
     }
 
     /// Adds the corners' values to a column of nodes whose first is `first`.
     #[inline(always)]
-    fn scatter(&self, values: &[F8; 8], to: &mut [f64], first: usize) {
+    fn scatter<F: Lanes>(&self, values: &[F; 9], to: &mut [f64], first: usize) {
         for row in 0..4 {
             let at = self.rows[row] as usize - first;
             let (low, high) = (values[2 * row], values[2 * row + 1]);
             if self.lanes as usize == LANES {
-                let mut shifted = [0.0; LANES];
-                shifted[1..].copy_from_slice(&high.0[..LANES - 1]);
-                (F8::load(to, at) + (low + F8(shifted))).store(to, at);
-                to[at + LANES] += high.0[LANES - 1];
+                (F::load(to, at) + (low + high.shifted())).store(to, at);
+                to[at + LANES] += high.pack().0[LANES - 1];
             } else {
+                let (low, high) = (low.pack(), high.pack());
                 for k in 0..self.lanes as usize {
                     to[at + k] += low.0[k];
                     to[at + k + 1] += high.0[k];
@@ -182,15 +313,15 @@ impl Group {
 
     /// Adds the centroids' values to a column of centroids whose first is `first`.
     #[inline(always)]
-    fn scatter_centre(&self, value: F8, to: &mut [f64], first: usize) {
+    fn scatter_centre<F: Lanes>(&self, value: F, to: &mut [f64], first: usize) {
         let at = self.centre as usize - first;
-        for (to, value) in to[at..].iter_mut().zip(value.0).take(self.lanes as usize) {
+        for (to, value) in to[at..].iter_mut().zip(value.pack().0).take(self.lanes as usize) {
             *to += value;
         }
     }
 
     #[inline(always)]
-    fn scatter_vector(&self, values: &[V3; 9], sink: &mut Sink<'_>) {
+    fn scatter_vector<F: Lanes>(&self, values: &[V3<F>; 9], sink: &mut Sink<'_>) {
         let (nodes, centres) = (&mut sink.nodes, &mut sink.centres);
         let columns = [
             (&mut *nodes.fx, &mut *centres.fx),
@@ -198,15 +329,15 @@ impl Group {
             (&mut *nodes.fz, &mut *centres.fz),
         ];
         for (d, (node, centre)) in columns.into_iter().enumerate() {
-            let own: [F8; 8] = std::array::from_fn(|slot| values[slot][d]);
+            let own: [F; 9] = each(|slot| values[slot][d]);
             self.scatter(&own, node, sink.first_node);
-            self.scatter_centre(values[CENTRE][d], centre, sink.first_centre);
+            self.scatter_centre(own[CENTRE], centre, sink.first_centre);
         }
     }
 
     /// Positions of the slots about the cell's centre at the start.
     #[inline(always)]
-    fn shape(&self, u: &[V3; 9], body: &Body) -> [V3; 9] {
+    fn shape<F: Lanes>(&self, u: &[V3<F>; 9], body: &Body) -> [V3<F>; 9] {
         let mut y = *u;
         for (slot, corner) in body.corners.iter().enumerate() {
             for d in 0..3 {
@@ -218,99 +349,131 @@ impl Group {
 
     /// First pass: forces, volumes, conduction and the heat of flow and damage.
     #[inline(always)]
-    pub fn load_particles<const VOLUMES: bool>(
+    pub fn load_particles<F: Lanes, const VOLUMES: bool>(
         &mut self,
         body: &Body,
         laws: &Laws,
         read: &Read<'_>,
         sink: &mut Sink<'_>,
     ) -> Demand {
-        let live = M8::from_bits(self.live);
-        let keep = |x: F8| F8::select(live, x, F8::ZERO);
-        let u = self.gather_vector(read.displacement);
+        let live = self.live;
+        let u: [V3<F>; 9] = self.gather_vector(read.displacement);
         let y = self.shape(&u, body);
-        let theta = self.gather(read.theta);
-        let mut force = [[F8::ZERO; 3]; 9];
-        let mut heat = [F8::ZERO; 9];
-        let mut demand = Demand::NONE;
+        let theta: [F; 9] = self.gather(read.theta);
+        let mut loads = Loads { force: [[F::zero(); 3]; 9], heat: [F::zero(); 9] };
 
         let motion = Kinematics::new(&u, body);
-        let pyramids = FACES.map(|face| pyramid(&y, face));
-        let areas: [V3; 6] = std::array::from_fn(|k| cross(&pyramids[k].1, &pyramids[k].2));
-        let volumes: [F8; 6] =
-            std::array::from_fn(|k| dot(&pyramids[k].0, &areas[k]) * (1.0 / 6.0));
-        let opening: [F8; 6] =
-            std::array::from_fn(|k| (volumes[k] - body.pyramids[k]) * (1.0 / body.pyramids[k]));
-        let tallest =
-            0.5 * theta[CENTRE] + 0.0625 * ((0..8).fold(F8::ZERO, |sum, slot| sum + theta[slot]));
-
-        self.fail(body, &motion, &opening, tallest);
-        let released = self.damage(body, &opening, laws.dt);
-        let intact = 1.0 - self.damage;
-        let mut freed = released;
-        if body.solid.mu > 0.0 {
-            freed += self.shear(body, &motion, (tallest, intact, laws.dt));
-            motion.forces(&self.piola, body, live, &mut force);
-            let stretch = -keep(-motion.stretch_squared()).least();
-            demand.rate = stretch.sqrt() * body.solid.sound / body.solid.edge;
-        }
-        let freed = keep(freed);
-        demand.heat = freed.sum();
-        for (slot, heat) in heat.iter_mut().enumerate() {
-            *heat = if slot == CENTRE { 0.5 } else { 0.0625 } * freed;
-        }
-
-        let mut push = [F8::ZERO; 6];
+        let mut pyramids = [Pyramid::nothing(); 6];
         for k in 0..6 {
-            self.tension[k] = keep(body.solid.bulk * intact * opening[k].max(F8::ZERO));
-            push[k] = -self.tension[k];
+            pyramids[k] = Pyramid::new(&y, FACES[k], body.pyramids[k]);
         }
+        let opening: [F; 6] = each(|k| pyramids[k].growth * body.per_pyramid[k]);
+        let corners = ((theta[0] + theta[1]) + (theta[2] + theta[3]))
+            + ((theta[4] + theta[5]) + (theta[6] + theta[7]));
+        let mean = theta[CENTRE] * 0.5 + corners * 0.0625;
+
+        self.fail(body, &motion, &opening, mean);
+        let mut freed = self.damage(body, &opening, laws.dt);
+        let intact = F::splat(1.0) - F::of(self.damage);
+        let mut rate_squared = F::zero();
+        if body.solid.mu > 0.0 {
+            freed += self.shear(body, &motion, (mean, intact, laws.dt));
+            motion.forces(&self.piola, body, live, &mut loads.force);
+            // Twice the rate at which longitudinal waves cross the cell, stretched.
+            let crossing = 2.0 * body.solid.sound / body.solid.edge;
+            rate_squared = motion.stretch_squared() * (crossing * crossing);
+        }
+        let freed = freed.keep(live);
+        for slot in 0..8 {
+            loads.heat[slot] = freed * 0.0625;
+        }
+        loads.heat[CENTRE] = freed * 0.5;
+
+        let mut push = [F::zero(); 6];
+        for k in 0..6 {
+            let tension = (intact * body.solid.bulk * opening[k].max(F::zero())).keep(live);
+            self.tension[k] = tension.pack();
+            push[k] = -tension;
+        }
+        let mut damping = F::zero();
         if VOLUMES {
-            let grip = self.gather(read.grip);
-            let mut share = [F8::ZERO; 9];
-            for (k, face) in FACES.into_iter().enumerate() {
-                let corners = (grip[face[0]] + grip[face[1]]) + (grip[face[2]] + grip[face[3]]);
-                push[k] += keep(0.5 * grip[CENTRE] + 0.125 * corners);
-                // Relative to the reference volume: nothing where nothing has moved.
-                let volume = keep(volumes[k] - body.pyramids[k]);
-                share[CENTRE] += 0.5 * volume;
-                for slot in face {
-                    share[slot] += 0.125 * volume;
-                }
+            self.carry(&pyramids, (laws, read), &mut push, sink);
+            let v: [V3<F>; 9] = self.gather_vector(read.velocity);
+            let sound: [F; 9] = self.gather(read.sound);
+            if laws.method.visc_volume > 0.0 {
+                self.stiffen(&pyramids, &opening, (&v, body, laws), &mut push);
             }
-            let own: [F8; 8] = std::array::from_fn(|slot| share[slot]);
-            self.scatter(&own, sink.nodes.volume, sink.first_node);
-            self.scatter_centre(share[CENTRE], sink.centres.volume, sink.first_centre);
-            demand.closing =
-                self.bond(&y, (body, laws, read), (&theta, live), (&mut force, &mut heat));
+            rate_squared = rate_squared.max(crossing_squared(&pyramids, body, &sound));
+            let seen = Seen { y: &y, v: &v, sound: &sound, theta: &theta };
+            damping = match laws.method.viscosity {
+                Viscosity::Limited => self.limited(&seen, (body, laws, read), &mut loads),
+                Viscosity::Pairwise => self.pairwise(&seen, (body, laws), &mut loads),
+            };
         }
+        for k in 0..6 {
+            pyramids[k].push(FACES[k], push[k], &mut loads.force);
+        }
+        self.scatter_vector(&loads.force, sink);
+        self.scatter(&loads.heat, sink.nodes.heat, sink.first_node);
+        self.scatter_centre(loads.heat[CENTRE], sink.centres.heat, sink.first_centre);
+        // The longest stable step is 2 / (lambda/2 + sqrt(lambda^2/4 + omega^2)).
+        let half = damping * 0.5;
+        let rate = (half + (half * half + rate_squared).sqrt()) * 0.5;
+        Demand { rate: rate.keep(live).largest(), dying: self.dying != 0, heat: freed.sum() }
+    }
+
+    /// Pressure of the particles on the pyramids, and the pyramids' share in the particles' volumes:
+    /// half of each to the centroid, the rest to the corners of its face and, by `balance`, of the
+    /// opposite face (decision 0013).
+    #[inline(always)]
+    fn carry<F: Lanes>(
+        &self,
+        pyramids: &[Pyramid<F>; 6],
+        (laws, read): (&Laws, &Read<'_>),
+        push: &mut [F; 6],
+        sink: &mut Sink<'_>,
+    ) {
+        let live = self.live;
+        let grip: [F; 9] = self.gather(read.grip);
+        let [own, other] = corner_weights(laws.method.balance);
+        let all = ((grip[0] + grip[1]) + (grip[2] + grip[3]))
+            + ((grip[4] + grip[5]) + (grip[6] + grip[7]));
+        let base = grip[CENTRE] * 0.5 + all * other;
+        let mut growth = [F::zero(); 6];
         for (k, face) in FACES.into_iter().enumerate() {
-            let (w, e, g) = &pyramids[k];
-            let sixth = push[k] * (1.0 / 6.0);
-            let twenty_fourth = push[k] * (1.0 / 24.0);
-            let (gw, we) = (cross(g, w), cross(w, e));
-            add_to(&mut force[CENTRE], &areas[k], -sixth);
-            for (slot, side, turn) in [
-                (face[0], &gw, -sixth),
-                (face[2], &gw, sixth),
-                (face[3], &we, sixth),
-                (face[1], &we, -sixth),
-            ] {
-                add_to(&mut force[slot], &areas[k], twenty_fourth);
-                add_to(&mut force[slot], side, turn);
-            }
+            let corners = (grip[face[0]] + grip[face[1]]) + (grip[face[2]] + grip[face[3]]);
+            push[k] += (base + corners * own).keep(live);
+            growth[k] = pyramids[k].growth.keep(live);
         }
-        self.scatter_vector(&force, sink);
-        let own: [F8; 8] = std::array::from_fn(|slot| heat[slot]);
-        self.scatter(&own, sink.nodes.heat, sink.first_node);
-        self.scatter_centre(heat[CENTRE], sink.centres.heat, sink.first_centre);
-        demand.dying = self.dying != 0;
-        demand
+        let share = shares(&growth, laws.method.balance);
+        self.scatter(&share, sink.nodes.volume, sink.first_node);
+        self.scatter_centre(share[CENTRE], sink.centres.volume, sink.first_centre);
+    }
+
+    /// Viscous pressure of pyramids that collapse: `rho q w^2` with the closing speed `w` over their
+    /// height (decision 0013).
+    #[inline(always)]
+    fn stiffen<F: Lanes>(
+        &mut self,
+        pyramids: &[Pyramid<F>; 6],
+        opening: &[F; 6],
+        (v, body, laws): (&[V3<F>; 9], &Body, &Laws),
+        push: &mut [F; 6],
+    ) {
+        for (k, face) in FACES.into_iter().enumerate() {
+            let closing = (-pyramids[k].rate(v, face)).max(F::zero()).keep(self.live);
+            let volume = (opening[k] + 1.0).max(F::splat(0.05));
+            let factor = 9.0 * laws.method.visc_volume * body.rho_0;
+            let square = closing * closing / dot(&pyramids[k].area, &pyramids[k].area);
+            let q = square * factor / (volume * volume);
+            self.stiff[k] = q.pack();
+            push[k] += q;
+        }
     }
 
     /// Marks lanes that fail, and those that cease to be volumes after this step.
     #[inline(always)]
-    fn fail(&mut self, body: &Body, motion: &Kinematics, opening: &[F8; 6], theta: F8) {
+    fn fail<F: Lanes>(&mut self, body: &Body, motion: &Kinematics<F>, opening: &[F; 6], theta: F) {
         let solid = &body.solid;
         let mut smallest = opening[0];
         let mut widest = opening[0];
@@ -318,14 +481,14 @@ impl Group {
             smallest = smallest.min(*o);
             widest = widest.max(*o);
         }
-        let crushed = smallest.lt(F8::splat(CRUSHED - 1.0)).bits()
-            | motion.jacobian.lt(F8::splat(solid.compression)).bits();
-        let tension = solid.bulk * (1.0 - self.damage) * widest;
-        let pulled = tension.gt(F8::splat(solid.spall)).bits();
-        let failing = solid.spent(self.strain, theta) | crushed | pulled;
+        let crushed =
+            smallest.lt(F::splat(CRUSHED - 1.0)) | motion.jacobian.lt(F::splat(solid.compression));
+        let tension = (F::splat(1.0) - F::of(self.damage)) * solid.bulk * widest;
+        let pulled = tension.gt(F::splat(solid.spall));
+        let failing = solid.spent(F::of(self.strain), theta) | crushed | pulled;
         self.failed |= failing & self.live;
-        let stretched = motion.stretch_squared().gt(F8::splat(TORN * TORN)).bits();
-        let open = motion.jacobian.gt(F8::splat(OPEN)).bits() & self.failed;
+        let stretched = motion.stretch_squared().gt(F::splat(TORN * TORN));
+        let open = motion.jacobian.gt(F::splat(OPEN)) & self.failed;
         self.dying = (crushed | stretched | open) & self.live;
         self.failed |= self.dying;
     }
@@ -333,202 +496,247 @@ impl Group {
     /// Damage of failed lanes, Eq. (47), and the energy that it sets free. A dying element loses all
     /// of its strength at once, so that no stored energy is left in it.
     #[inline(always)]
-    fn damage(&mut self, body: &Body, opening: &[F8; 6], dt: f64) -> F8 {
+    fn damage<F: Lanes>(&mut self, body: &Body, opening: &[F; 6], dt: f64) -> F {
         if self.failed & self.live == 0 {
-            return F8::ZERO;
+            return F::zero();
         }
-        let step = F8::splat(body.solid.damage_step(dt));
-        let step = F8::select(M8::from_bits(self.dying), F8::splat(1.0), step);
-        let grown = (self.damage + step).min(F8::splat(1.0));
-        let grown = F8::select(M8::from_bits(self.failed & self.live), grown, self.damage);
-        let stored = self.shear_energy(body) + tension_energy(body, opening);
-        let released = stored * (grown - self.damage);
-        let left = (1.0 - grown) / (1.0 - self.damage).max(F8::splat(1e-300));
+        let one = F::splat(1.0);
+        let before = F::of(self.damage);
+        let step = F::select(self.dying, one, F::splat(body.solid.damage_step(dt)));
+        let after = F::select(self.failed & self.live, (before + step).min(one), before);
+        let stored = self.shear_energy::<F>(body) + tension_energy(body, opening);
+        let released = stored * (after - before);
+        let left = (one - after) / (one - before).max(F::splat(1e-300));
         for stress in &mut self.stress {
-            *stress = *stress * left;
+            *stress = (F::of(*stress) * left).pack();
         }
-        self.damage = grown;
+        self.damage = after.pack();
         released
     }
 
     /// Shear energy per damage, from the stress of the last step.
     #[inline(always)]
-    fn shear_energy(&self, body: &Body) -> F8 {
-        let intact = 1.0 - self.damage;
-        let stiffness = 4.0 * body.solid.mu * intact * intact;
-        let some = stiffness.gt(F8::ZERO);
-        let energy =
-            contract(&self.stress, &self.stress) / F8::select(some, stiffness, F8::splat(1.0));
-        F8::select(some, body.cell_volume * energy, F8::ZERO)
+    fn shear_energy<F: Lanes>(&self, body: &Body) -> F {
+        let intact = F::splat(1.0) - F::of(self.damage);
+        let stiffness = intact * intact * (4.0 * body.solid.mu);
+        let some = stiffness.gt(F::zero());
+        let stress: Sym<F> = each(|k| F::of(self.stress[k]));
+        let energy = contract(&stress, &stress) / F::select(some, stiffness, F::splat(1.0));
+        (energy * body.cell_volume).keep(some)
     }
 
     /// Shear stress and plastic flow; the heat of the flow.
     #[inline(always)]
-    fn shear(
+    fn shear<F: Lanes>(
         &mut self,
         body: &Body,
-        motion: &Kinematics,
-        (theta, intact, dt): (F8, F8, f64),
-    ) -> F8 {
+        motion: &Kinematics<F>,
+        (theta, intact, dt): (F, F, f64),
+    ) -> F {
         let total = motion.shear_strain();
-        let before = self.plastic;
-        let old_stress = self.stress;
-        let load =
-            Load { modulus: 2.0 * body.solid.mu * intact, intact, theta, live: self.live, dt };
-        let mut plastic = Plastic {
-            plastic: &mut self.plastic,
-            strain: &mut self.strain,
-            flow: &mut self.flow,
-            rate: &mut self.rate,
-        };
-        self.stress = body.solid.flow(&total, &mut plastic, &load);
-        self.piola = motion.piola(&self.stress, body);
-        let step: Sym = std::array::from_fn(|k| self.plastic[k] - before[k]);
-        let mean: Sym = std::array::from_fn(|k| 0.5 * (self.stress[k] + old_stress[k]));
-        body.cell_volume * contract(&mean, &step)
+        let before: Sym<F> = each(|k| F::of(self.plastic[k]));
+        let old: Sym<F> = each(|k| F::of(self.stress[k]));
+        let mut plastic = before;
+        let modulus = intact * (2.0 * body.solid.mu);
+        let load = Load { modulus, intact, theta, live: self.live, dt };
+        let mut own =
+            Flowing { strain: &mut self.strain, flow: &mut self.flow, rate: &mut self.rate };
+        let stress = body.solid.flow(&total, &mut plastic, &mut own, &load);
+        let piola = motion.piola(&stress, body);
+        for k in 0..6 {
+            self.stress[k] = stress[k].pack();
+            self.plastic[k] = plastic[k].pack();
+        }
+        for k in 0..9 {
+            self.piola[k] = piola[k].pack();
+        }
+        let step: Sym<F> = each(|k| plastic[k] - before[k]);
+        let mean: Sym<F> = each(|k| (stress[k] + old[k]) * 0.5);
+        contract(&mean, &step) * body.cell_volume
     }
 
-    /// Viscosity (51)-(53) and conduction (56)-(57) between the centroid and the corners. Returns the
-    /// largest closing speed over the sound speed.
+    /// Viscosity (51)-(53) and conduction (56)-(57) as printed, between the centroid and the corners.
+    /// Returns the rate of damping.
     #[inline(always)]
-    fn bond(
+    fn pairwise<F: Lanes>(
         &mut self,
-        y: &[V3; 9],
-        (body, laws, read): (&Body, &Laws, &Read<'_>),
-        (theta, live): (&[F8; 9], M8),
-        (force, heat): (&mut [V3; 9], &mut [F8; 9]),
-    ) -> f64 {
-        let v = self.gather_vector(read.velocity);
-        let sound = self.gather(read.sound);
-        let area = (0.5 * body.cell_volume).powf(2.0 / 3.0);
-        let half = 0.5 * laws.visc_linear * body.rho_0 * area;
-        let conduct = 0.5 * laws.heat_coeff * body.rho_0 * area * body.eos.c_v() * laws.dt;
-        let reach = body.length * body.length;
-        let mut closing = F8::ZERO;
+        seen: &Seen<'_, F>,
+        (body, laws): (&Body, &Laws),
+        loads: &mut Loads<F>,
+    ) -> F {
+        let method = &laws.method;
+        let impedance = body.rho_0 * body.bond_areas[1];
+        let half = 0.5 * method.visc_linear * impedance;
+        let conduct = 0.5 * method.heat_coeff * impedance * body.eos.c_v() * laws.dt;
+        let reach = F::splat(body.length * body.length);
+        let mut most = F::zero();
         for slot in 0..8 {
-            let r = sub(&y[slot], &y[CENTRE]);
-            let w = sub(&v[slot], &v[CENTRE]);
+            let (r, w) = seen.bond(slot);
             let square = dot(&r, &r);
-            let approach = (-dot(&r, &w)).max(F8::ZERO);
-            let inverse = 1.0 / square;
-            let near = F8::select(square.lt(F8::splat(reach)), F8::splat(1.0), F8::ZERO);
-            let near = F8::select(live, near, F8::ZERO);
-            let pair = sound[slot] + sound[CENTRE];
+            let near = square.lt(reach) & self.live;
+            let approach = (-dot(&r, &w)).max(F::zero()).keep(near);
+            let inverse = F::splat(1.0) / square;
+            let pair = seen.sound[slot] + seen.sound[CENTRE];
             let speed = approach * inverse.sqrt();
-            let nu = half * near * (pair + (2.0 * laws.visc_quad) * speed);
+            let nu = (pair + speed * (2.0 * method.visc_quad)) * half;
             let bond = nu * approach * inverse;
-            self.bonds[slot] = bond;
-            closing = closing.max(near * speed / pair.max(F8::splat(1e-300)));
-            for d in 0..3 {
-                let f = bond * r[d];
-                force[slot][d] += f;
-                force[CENTRE][d] -= f;
-            }
-            if laws.heat_coeff > 0.0 {
-                let flux = conduct * near * pair * (theta[slot] - theta[CENTRE]);
-                heat[slot] -= flux;
-                heat[CENTRE] += flux;
+            self.bonds[slot] = bond.pack();
+            most = most.max(nu);
+            loads.pull(slot, &r, bond);
+            if conduct > 0.0 {
+                let difference = seen.theta[slot] - seen.theta[CENTRE];
+                loads.conduct(slot, (pair * difference).keep(near) * conduct);
             }
         }
-        -(-closing).least()
+        most * body.damping()
     }
 
-    /// Second pass: volume rates, the viscous heat of the bonds, and the power of the elements' own
-    /// forces, all over the mean velocity of the step. Returns that power.
+    /// Viscosity on what neighbouring jumps along the diagonal do not explain, and the heat flux in
+    /// shocks (decision 0013). Returns the rate of damping.
     #[inline(always)]
-    pub fn work<const VOLUMES: bool>(
+    fn limited<F: Lanes>(
+        &mut self,
+        seen: &Seen<'_, F>,
+        (body, laws, read): (&Body, &Laws, &Read<'_>),
+        loads: &mut Loads<F>,
+    ) -> F {
+        let method = &laws.method;
+        let zero = F::zero();
+        let area = body.bond_areas[0];
+        let conduct = method.heat_coeff * area * body.eos.c_v() * laws.dt;
+        let rho: [F; 9] = self.gather(read.rho);
+        let mut most = zero;
+        for slot in 0..8 {
+            let (r, w) = seen.bond(slot);
+            let inverse = F::splat(1.0) / dot(&r, &r);
+            // Jumps times the separation: of the bond, of the one before and of the one beyond.
+            let own = -dot(&r, &w);
+            let before = dot(&r, &sub(&seen.v[7 - slot], &seen.v[CENTRE]));
+            let at = self.beyond[slot] as usize;
+            let next = [
+                F::load(read.velocity[0], at),
+                F::load(read.velocity[1], at),
+                F::load(read.velocity[2], at),
+            ];
+            let beyond = dot(&r, &sub(&seen.v[slot], &next)).keep(self.has_beyond[slot]);
+            let alike = (before * own).gt(zero) & (beyond * own).gt(zero);
+            let mean = before * beyond * method.limiter / ((before + beyond) * own);
+            let explained = mean.min(F::splat(1.0)).keep(alike);
+            let jump = (own * (F::splat(1.0) - explained)).keep(self.live);
+            let speed = jump * inverse.sqrt();
+            let closing = speed.gt(zero);
+            let sound = (seen.sound[slot] + seen.sound[CENTRE]) * 0.5;
+            let mass = (rho[slot] + rho[CENTRE]) * (0.5 * area);
+            let steep = speed * (method.visc_quad * body.slope);
+            let linear = sound * method.visc_linear;
+            let shock = steep + (steep * steep + linear * linear).sqrt();
+            let nu = mass * F::select(closing, shock, sound * method.visc_expansion);
+            let bond = nu * jump * inverse;
+            self.bonds[slot] = bond.pack();
+            most = most.max(nu);
+            loads.pull(slot, &r, bond);
+            if conduct > 0.0 {
+                let difference = seen.theta[slot] - seen.theta[CENTRE];
+                loads.conduct(slot, mass * speed.max(zero) * (difference * (conduct / area)));
+            }
+        }
+        most * body.damping()
+    }
+
+    /// Second pass: volume rates, the viscous heat, and the power of the elements' own forces, all
+    /// over the mean velocity of the step. Returns that power.
+    #[inline(always)]
+    pub fn work<F: Lanes, const VOLUMES: bool>(
         &self,
         body: &Body,
-        (displacement, mean, dt): ([&[f64]; 3], [&[f64]; 3], f64),
+        (displacement, mean): ([&[f64]; 3], [&[f64]; 3]),
+        laws: &Laws,
         sink: &mut Sink<'_>,
-    ) -> F8 {
-        let live = M8::from_bits(self.live);
-        let y = self.shape(&self.gather_vector(displacement), body);
-        let v = self.gather_vector(mean);
-        let mut power = F8::ZERO;
-        let mut rate = [F8::ZERO; 9];
+    ) -> f64 {
+        let u: [V3<F>; 9] = self.gather_vector(displacement);
+        let y = self.shape(&u, body);
+        let v: [V3<F>; 9] = self.gather_vector(mean);
+        let mut power = F::zero();
+        let mut rates = [F::zero(); 6];
         for (k, face) in FACES.into_iter().enumerate() {
-            let (w, e, g) = pyramid(&y, face);
-            let (dw, de, dg) = pyramid(&v, face);
-            let sum =
-                dot(&dw, &cross(&e, &g)) + dot(&de, &cross(&g, &w)) + dot(&dg, &cross(&w, &e));
-            let sum = F8::select(live, sum * (1.0 / 6.0), F8::ZERO);
-            power += self.tension[k] * sum;
-            if VOLUMES {
-                rate[CENTRE] += 0.5 * sum;
-                for slot in face {
-                    rate[slot] += 0.125 * sum;
-                }
-            }
+            let rate = Pyramid::new(&y, face, 0.0).rate(&v, face).keep(self.live);
+            power += F::of(self.tension[k]) * rate;
+            rates[k] = rate;
         }
         if body.solid.mu > 0.0 {
             let gradient = gradient(&v, body);
-            let mut shear = F8::ZERO;
+            let mut shear = F::zero();
             for row in 0..3 {
-                for axis in 0..3 {
-                    shear += self.piola[3 * row + axis] * gradient[axis][row];
+                for (axis, gradient) in gradient.iter().enumerate() {
+                    shear += F::of(self.piola[3 * row + axis]) * gradient[row];
                 }
             }
-            power += F8::select(live, body.cell_volume * shear, F8::ZERO);
+            power += (shear * body.cell_volume).keep(self.live);
         }
         if VOLUMES {
-            let own: [F8; 8] = std::array::from_fn(|slot| rate[slot]);
-            self.scatter(&own, sink.nodes.volume_rate, sink.first_node);
-            self.scatter_centre(rate[CENTRE], sink.centres.volume_rate, sink.first_centre);
-            let mut heat = [F8::ZERO; 9];
+            let share = shares(&rates, laws.method.balance);
+            self.scatter(&share, sink.nodes.volume_rate, sink.first_node);
+            self.scatter_centre(share[CENTRE], sink.centres.volume_rate, sink.first_centre);
+            let mut heat = [F::zero(); 9];
             for slot in 0..8 {
                 let r = sub(&y[slot], &y[CENTRE]);
                 let w = sub(&v[slot], &v[CENTRE]);
-                let half = -0.5 * dt * self.bonds[slot] * dot(&r, &w);
+                let half = F::of(self.bonds[slot]) * dot(&r, &w) * (-0.5 * laws.dt);
                 heat[slot] = half;
                 heat[CENTRE] += half;
             }
-            let own: [F8; 8] = std::array::from_fn(|slot| heat[slot]);
-            self.scatter(&own, sink.nodes.heat, sink.first_node);
+            if laws.method.visc_volume > 0.0 {
+                for (k, face) in FACES.into_iter().enumerate() {
+                    let warmth = F::of(self.stiff[k]) * rates[k] * -laws.dt;
+                    heat[CENTRE] += warmth * 0.5;
+                    for slot in face {
+                        heat[slot] += warmth * 0.125;
+                    }
+                }
+            }
+            self.scatter(&heat, sink.nodes.heat, sink.first_node);
             self.scatter_centre(heat[CENTRE], sink.centres.heat, sink.first_centre);
         }
-        power
+        power.sum()
     }
 
     /// Energy stored by lane: in shear (24), from the stress of the last step, and in tension (25).
     #[must_use]
     pub fn stored(&self, body: &Body) -> (F8, F8) {
-        let intact = 1.0 - self.damage;
+        let one = F8::splat(1.0);
+        let intact = one - self.damage;
         let mut tension = F8::ZERO;
-        let stiffness = F8::splat(body.solid.bulk) * intact;
+        let stiffness = intact * body.solid.bulk;
+        let some = stiffness.gt(F8::ZERO);
         for k in 0..6 {
-            let some = stiffness.gt(F8::ZERO);
-            let energy =
-                self.tension[k] * self.tension[k] / F8::select(some, stiffness, F8::splat(1.0));
-            tension += F8::select(some, 0.5 * body.pyramids[k] * energy, F8::ZERO);
+            let energy = self.tension[k] * self.tension[k] / F8::select(some, stiffness, one);
+            tension += (energy * (0.5 * body.pyramids[k])).keep(some);
         }
-        let live = M8::from_bits(self.live);
-        let keep = |x: F8| F8::select(live, x, F8::ZERO);
-        (keep(self.shear_energy(body) * intact), keep(tension))
+        ((self.shear_energy::<F8>(body) * intact).keep(self.live), tension.keep(self.live))
     }
 }
 
 /// Energy of the pyramids in tension, damage apart.
 #[inline(always)]
-fn tension_energy(body: &Body, opening: &[F8; 6]) -> F8 {
-    let mut energy = F8::ZERO;
+fn tension_energy<F: Lanes>(body: &Body, opening: &[F; 6]) -> F {
+    let mut energy = F::zero();
     for (k, o) in opening.iter().enumerate() {
-        let open = o.max(F8::ZERO);
-        energy += 0.5 * body.solid.bulk * body.pyramids[k] * open * open;
+        let open = o.max(F::zero());
+        energy += open * open * (0.5 * body.solid.bulk * body.pyramids[k]);
     }
     energy
 }
 
 /// Gradient of a corner field along the lattice axes, one vector an axis: one-point integration.
 #[inline(always)]
-fn gradient(u: &[V3; 9], body: &Body) -> [V3; 3] {
-    let mut out = [[F8::ZERO; 3]; 3];
+fn gradient<F: Lanes>(u: &[V3<F>; 9], body: &Body) -> [V3<F>; 3] {
+    let mut out = [[F::zero(); 3]; 3];
+    let size = body.lattice.size;
     for d in 0..3 {
         let s = |slot: usize| u[slot][d];
         // Sums and differences along the fast axis serve all three.
         let plus = [s(1) + s(0), s(3) + s(2), s(5) + s(4), s(7) + s(6)];
         let minus = [s(1) - s(0), s(3) - s(2), s(5) - s(4), s(7) - s(6)];
-        let size = body.lattice.size;
         out[0][d] = ((minus[0] + minus[1]) + (minus[2] + minus[3])) * (0.25 / size[0]);
         out[1][d] = ((plus[1] - plus[0]) + (plus[3] - plus[2])) * (0.25 / size[1]);
         out[2][d] = ((plus[2] - plus[0]) + (plus[3] - plus[1])) * (0.25 / size[2]);
@@ -537,29 +745,28 @@ fn gradient(u: &[V3; 9], body: &Body) -> [V3; 3] {
 }
 
 /// Deformation of up to eight elements, Eqs. (14)-(15), in lattice axes.
-struct Kinematics {
+struct Kinematics<F> {
     /// `F`, row by row.
-    f: [F8; 9],
+    f: [F; 9],
     /// Cofactors of `F`, row by row.
-    cofactor: [F8; 9],
+    cofactor: [F; 9],
     /// `F^T F`.
-    c: Sym,
+    c: Sym<F>,
     /// `J = det F`.
-    jacobian: F8,
+    jacobian: F,
     /// `J^(-1/3)`.
-    root: F8,
+    root: F,
 }
 
-impl Kinematics {
+impl<F: Lanes> Kinematics<F> {
     #[inline(always)]
-    fn new(u: &[V3; 9], body: &Body) -> Self {
+    fn new(u: &[V3<F>; 9], body: &Body) -> Self {
         let along = gradient(u, body);
-        let axes = &body.lattice.axes;
-        let mut f = [F8::ZERO; 9];
-        for (row, axis) in axes.iter().enumerate() {
+        let mut f = [F::zero(); 9];
+        for (row, axis) in body.lattice.axes.iter().enumerate() {
             for column in 0..3 {
                 let g = &along[column];
-                let b = axis[0] * g[0] + axis[1] * g[1] + axis[2] * g[2];
+                let b = g[0] * axis[0] + g[1] * axis[1] + g[2] * axis[2];
                 f[3 * row + column] = b + if row == column { 1.0 } else { 0.0 };
             }
         }
@@ -574,56 +781,54 @@ impl Kinematics {
             f,
             jacobian,
             // An inverted element has no root; it is dying, and its shear is not used.
-            root: jacobian.max(F8::splat(1e-3)).inverse_cube_root(),
+            root: jacobian.max(F::splat(1e-3)).inverse_cube_root(),
         }
     }
 
     /// `(J^(-2/3) C - I) / 2`, Eqs. (14)-(15).
     #[inline(always)]
-    fn shear_strain(&self) -> Sym {
-        let q = 0.5 * self.root * self.root;
-        std::array::from_fn(|k| q * self.c[k] - if k < 3 { 0.5 } else { 0.0 })
+    fn shear_strain(&self) -> Sym<F> {
+        let q = self.root * self.root * 0.5;
+        each(|k| q * self.c[k] - if k < 3 { 0.5 } else { 0.0 })
     }
 
     /// Mean squared stretch without the volume, times the compression's.
     #[inline(always)]
-    fn stretch_squared(&self) -> F8 {
+    fn stretch_squared(&self) -> F {
         let q = self.root * self.root;
         let mean = q * (self.c[0] + self.c[1] + self.c[2]) * (1.0 / 3.0);
-        mean * q.max(F8::splat(1.0))
+        mean * q.max(F::splat(1.0))
     }
 
     /// First Piola-Kirchhoff stress of the shear energy, rows turned to global axes.
     #[inline(always)]
-    fn piola(&self, s: &Sym, body: &Body) -> [F8; 9] {
+    fn piola(&self, s: &Sym<F>, body: &Body) -> [F; 9] {
         let q = self.root * self.root;
         let third = contract(s, &self.c) * (1.0 / 3.0) / self.jacobian;
         let full = [s[0], s[3], s[4], s[3], s[1], s[5], s[4], s[5], s[2]];
-        let mut own = [F8::ZERO; 9];
-        for row in 0..3 {
-            for column in 0..3 {
-                let f = &self.f[3 * row..3 * row + 3];
-                let fs = f[0] * full[column] + f[1] * full[3 + column] + f[2] * full[6 + column];
-                own[3 * row + column] = q * (fs - third * self.cofactor[3 * row + column]);
-            }
-        }
-        let axes = &body.lattice.axes;
-        std::array::from_fn(|k| {
+        let own: [F; 9] = each(|k| {
             let (row, column) = (k / 3, k % 3);
-            axes[0][row] * own[column]
-                + axes[1][row] * own[3 + column]
-                + axes[2][row] * own[6 + column]
+            let f = &self.f[3 * row..3 * row + 3];
+            let fs = f[0] * full[column] + f[1] * full[3 + column] + f[2] * full[6 + column];
+            q * (fs - third * self.cofactor[k])
+        });
+        let axes = &body.lattice.axes;
+        each(|k| {
+            let (row, column) = (k / 3, k % 3);
+            own[column] * axes[0][row]
+                + own[3 + column] * axes[1][row]
+                + own[6 + column] * axes[2][row]
         })
     }
 
     /// Adds the corner forces of the shear stress, `-V_o P grad N`.
     #[inline(always)]
-    fn forces(&self, piola: &[F8; 9], body: &Body, live: M8, force: &mut [V3; 9]) {
+    fn forces(&self, piola: &[F8; 9], body: &Body, live: Mask, force: &mut [V3<F>; 9]) {
         let size = body.lattice.size;
         for d in 0..3 {
-            let along: [F8; 3] = std::array::from_fn(|axis| {
+            let along: [F; 3] = each(|axis| {
                 let scale = -0.25 * body.cell_volume / size[axis];
-                F8::select(live, scale * piola[3 * d + axis], F8::ZERO)
+                (F::of(piola[3 * d + axis]) * scale).keep(live)
             });
             let (plus, minus) = (along[1] + along[0], along[1] - along[0]);
             let (up, down) = (along[2], -along[2]);

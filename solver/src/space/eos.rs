@@ -1,17 +1,17 @@
 //! Equations of state, Eq. (22), eight particles at a time.
 
-use super::lanes::F8;
+use super::lanes::Lanes;
 use super::scene::{EosData, GammaLaw, Material};
 
 /// Pressure and what follows from it.
 #[derive(Debug, Clone, Copy)]
-pub struct Response {
+pub struct Response<F> {
     /// Pressure `P`; not negative, since tension is carried by the elements.
-    pub pressure: F8,
+    pub pressure: F,
     /// Square of the sound speed `c_s`.
-    pub sound_squared: F8,
+    pub sound_squared: F,
     /// Temperature `theta`.
-    pub theta: F8,
+    pub theta: F,
 }
 
 /// An equation of state. Which one is decided once a piece of particles.
@@ -105,6 +105,15 @@ impl Eos {
         }
     }
 
+    /// Slope of the shock speed over the jump of velocity.
+    #[must_use]
+    pub fn slope(&self) -> f64 {
+        match self {
+            Self::MieGruneisen(solid) => solid.s,
+            Self::IdealGas(gas) => 0.5 * (gas.index + 1.0),
+        }
+    }
+
     /// Temperature of the reference state.
     #[must_use]
     pub fn theta_0(&self) -> f64 {
@@ -117,7 +126,7 @@ impl Eos {
     /// Pressure, sound speed and temperature at a density and an internal energy per mass.
     #[inline(always)]
     #[must_use]
-    pub fn respond(&self, rho: F8, u: F8) -> Response {
+    pub fn respond<F: Lanes>(&self, rho: F, u: F) -> Response<F> {
         match self {
             Self::MieGruneisen(solid) => solid.respond(rho, u),
             Self::IdealGas(gas) => gas.respond(rho, u),
@@ -127,47 +136,47 @@ impl Eos {
 
 impl MieGruneisen {
     #[inline(always)]
-    fn respond(&self, rho: F8, u: F8) -> Response {
-        let zero = F8::ZERO;
-        let inverse = 1.0 / rho;
+    fn respond<F: Lanes>(&self, rho: F, u: F) -> Response<F> {
+        let (zero, one) = (F::zero(), F::splat(1.0));
+        let inverse = one / rho;
         // Written so that both are exactly zero at the reference density.
         let mu = (rho - self.rho_0) * (1.0 / self.rho_0);
         let eta = (rho - self.rho_0) * inverse;
-        let capped = eta.min(F8::splat(self.eta_cap)).max(zero);
-        let gap = 1.0 / (1.0 - self.s * capped);
-        let product = self.product + self.steepness * (rho - self.rho_0);
+        let capped = eta.min(F::splat(self.eta_cap)).max(zero);
+        let gap = one / (one - capped * self.s);
+        let product = (rho - self.rho_0) * self.steepness + self.product;
         // Half of eta Gamma rho / rho_o.
         let release = product * capped * (0.5 / self.rho_0);
-        let hugoniot = self.bulk * capped * gap * gap;
-        let slope = self.bulk * (1.0 + self.s * capped) * gap * gap * gap;
-        let d_eta = self.rho_0 * inverse * inverse;
-        let compressed = slope * (1.0 - release) - hugoniot * product * (0.5 / self.rho_0);
+        let hugoniot = capped * self.bulk * gap * gap;
+        let slope = (capped * self.s + 1.0) * self.bulk * gap * gap * gap;
+        let compressed = slope * (one - release) - hugoniot * product * (0.5 / self.rho_0);
         // Beyond the cap the cold pressure is linear in the density, with the slope that it has there.
         let last = self.rho_0 / (1.0 - self.eta_cap);
         let beyond = (rho - last).max(zero);
         let cap_slope = self.rho_0 / (last * last);
-        let d_eta = F8::select(beyond.gt(zero), F8::splat(cap_slope), d_eta);
-        let cold = hugoniot * (1.0 - release) + compressed * cap_slope * beyond;
+        let d_eta = inverse * inverse * self.rho_0;
+        let d_eta = F::select(beyond.gt(zero), F::splat(cap_slope), d_eta);
+        let cold = hugoniot * (one - release) + compressed * cap_slope * beyond;
         let expanded = mu.lt(zero);
-        let cold = F8::select(expanded, self.bulk * mu, cold);
-        let d_cold = F8::select(expanded, F8::splat(self.bulk / self.rho_0), compressed * d_eta);
-        let d_cold = d_cold + self.steepness * (u - hugoniot * capped * (0.5 / self.rho_0));
+        let cold = F::select(expanded, mu * self.bulk, cold);
+        let d_cold = F::select(expanded, F::splat(self.bulk / self.rho_0), compressed * d_eta);
+        let d_cold = d_cold + (u - hugoniot * capped * (0.5 / self.rho_0)) * self.steepness;
         let pressure = (cold + product * u).max(zero);
         let sound = d_cold + pressure * product * inverse * inverse;
         let least = LEAST_SOUND * self.bulk / self.rho_0;
-        let u_cold = self.cold_2 * capped * capped * (1.0 + self.cold_3 * capped);
-        let theta = self.theta_0 + (u - u_cold).max(zero) * (1.0 / self.c_v);
-        Response { pressure, sound_squared: sound.max(F8::splat(least)), theta }
+        let u_cold = capped * capped * self.cold_2 * (capped * self.cold_3 + 1.0);
+        let theta = (u - u_cold).max(zero) * (1.0 / self.c_v) + self.theta_0;
+        Response { pressure, sound_squared: sound.max(F::splat(least)), theta }
     }
 }
 
 impl IdealGas {
     #[inline(always)]
-    fn respond(&self, rho: F8, u: F8) -> Response {
-        let u = u.max(F8::ZERO);
+    fn respond<F: Lanes>(&self, rho: F, u: F) -> Response<F> {
+        let u = u.max(F::zero());
         Response {
-            pressure: (self.index - 1.0) * rho * u,
-            sound_squared: self.index * (self.index - 1.0) * u,
+            pressure: rho * u * (self.index - 1.0),
+            sound_squared: u * (self.index * (self.index - 1.0)),
             theta: u * (1.0 / self.c_v),
         }
     }
@@ -176,6 +185,7 @@ impl IdealGas {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::space::lanes::F8;
     use crate::space::scene::Failure;
 
     fn copper(law: GammaLaw) -> Eos {

@@ -1,26 +1,183 @@
 //! Eight numbers side by side: the unit of all inner loops in three dimensions.
 //!
-//! Plain arrays and plain operators. The compiler turns them into the widest vectors of the function
-//! that they are inlined into (see [`crate::space::dispatch`]); no multiplication is ever fused with
-//! an addition, so that every processor gives the same bits.
+//! Kernels are written once, over [`Lanes`]. [`F8`] are plain arrays, for memory and for any
+//! processor; [`super::wide`] has the registers of those that hold eight numbers. No multiplication
+//! is ever fused with an addition and sums have one order, so that all give the same bits.
 
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
-/// Lanes of an [`F8`].
+/// Number of lanes.
 pub const LANES: usize = 8;
 
-/// Eight numbers.
+/// Eight truth values, lane 0 lowest.
+pub type Mask = u8;
+
+/// Eight numbers in memory.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(C, align(64))]
 pub struct F8(pub [f64; LANES]);
 
-/// Eight truth values.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct M8(pub [bool; LANES]);
+/// Eight numbers at work.
+pub trait Lanes:
+    Copy
+    + Send
+    + Sync
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+    + AddAssign
+    + SubAssign
+    + Add<f64, Output = Self>
+    + Sub<f64, Output = Self>
+    + Mul<f64, Output = Self>
+{
+    /// Eight times the same number.
+    fn splat(x: f64) -> Self;
+    /// From memory.
+    fn of(x: F8) -> Self;
+    /// To memory.
+    fn pack(self) -> F8;
+    /// The larger of each two; the second where either is not a number.
+    fn max(self, other: Self) -> Self;
+    /// The smaller of each two; the second where either is not a number.
+    fn min(self, other: Self) -> Self;
+    /// Square roots.
+    fn sqrt(self) -> Self;
+    /// Where a lane is below the other's.
+    fn lt(self, other: Self) -> Mask;
+    /// `yes` where the mask says so, `no` elsewhere.
+    fn select(mask: Mask, yes: Self, no: Self) -> Self;
+    /// Every lane moved one up; zero in lane 0.
+    fn shifted(self) -> Self;
+    /// Bits of an estimate of `x^(-1/3)`, good to 4 %.
+    fn root_seed(self) -> Self;
+
+    /// Eight zeros.
+    #[inline(always)]
+    #[must_use]
+    fn zero() -> Self {
+        Self::splat(0.0)
+    }
+
+    /// The numbers from `at` on.
+    #[inline(always)]
+    #[must_use]
+    fn load(from: &[f64], at: usize) -> Self {
+        let mut out = [0.0; LANES];
+        out.copy_from_slice(&from[at..at + LANES]);
+        Self::of(F8(out))
+    }
+
+    /// Writes the numbers from `at` on.
+    #[inline(always)]
+    fn store(self, to: &mut [f64], at: usize) {
+        to[at..at + LANES].copy_from_slice(&self.pack().0);
+    }
+
+    /// Where a lane is above the other's.
+    #[inline(always)]
+    #[must_use]
+    fn gt(self, other: Self) -> Mask {
+        other.lt(self)
+    }
+
+    /// Sizes.
+    #[inline(always)]
+    #[must_use]
+    fn abs(self) -> Self {
+        self.max(-self)
+    }
+
+    /// The lanes of the mask, zero elsewhere.
+    #[inline(always)]
+    #[must_use]
+    fn keep(self, mask: Mask) -> Self {
+        Self::select(mask, self, Self::zero())
+    }
+
+    /// Sum in the order of the lanes, in pairs.
+    #[inline(always)]
+    #[must_use]
+    fn sum(self) -> f64 {
+        let [a, b, c, d, e, f, g, h] = self.pack().0;
+        ((a + b) + (c + d)) + ((e + f) + (g + h))
+    }
+
+    /// Smallest lane.
+    #[inline(always)]
+    #[must_use]
+    fn least(self) -> f64 {
+        self.pack().0.into_iter().fold(f64::INFINITY, |a, b| if b < a { b } else { a })
+    }
+
+    /// Largest lane.
+    #[inline(always)]
+    #[must_use]
+    fn largest(self) -> f64 {
+        -(-self).least()
+    }
+
+    /// `x^(-1/3)` of positive lanes to a relative error of 4e-16; exactly 1 at 1.
+    ///
+    /// Each correction by the third-order series of `(1 - e)^(-1/3)` raises the error of the estimate
+    /// to the fourth power.
+    #[inline(always)]
+    #[must_use]
+    fn inverse_cube_root(self) -> Self {
+        let one = Self::splat(1.0);
+        let mut y = self.root_seed();
+        for _ in 0..3 {
+            let e = one - self * y * y * y;
+            y += y * e * (e * (e * (14.0 / 81.0) + 2.0 / 9.0) + 1.0 / 3.0);
+        }
+        let exact = !(self.lt(one) | self.gt(one));
+        Self::select(exact, one, y)
+    }
+}
+
+/// Values of a function of the index. (The array methods of the standard library are not inlined into
+/// wide functions.)
+#[inline(always)]
+#[must_use]
+pub fn each<F: Lanes, const N: usize>(f: impl Fn(usize) -> F) -> [F; N] {
+    let mut out = [F::zero(); N];
+    for (k, out) in out.iter_mut().enumerate() {
+        *out = f(k);
+    }
+    out
+}
+
+/// Bits of the estimate of [`Lanes::root_seed`]: minus a third of the upper half, as a multiplication.
+pub(super) const SEED: u64 = 0x553e_f0ff;
+/// A third in units of `2^-32`.
+pub(super) const THIRD: u64 = 0x5555_5556;
 
 impl Default for F8 {
     fn default() -> Self {
         Self::ZERO
+    }
+}
+
+impl F8 {
+    /// Eight zeros.
+    pub const ZERO: Self = Self([0.0; LANES]);
+
+    #[inline(always)]
+    fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
+        let mut out = [0.0; LANES];
+        for k in 0..LANES {
+            out[k] = f(self.0[k], other.0[k]);
+        }
+        Self(out)
+    }
+
+    /// Lane by lane.
+    #[inline(always)]
+    #[must_use]
+    pub fn map(self, f: impl Fn(f64) -> f64) -> Self {
+        self.zip(self, |x, _| f(x))
     }
 }
 
@@ -30,33 +187,14 @@ macro_rules! operator {
             type Output = Self;
             #[inline(always)]
             fn $method(self, other: Self) -> Self {
-                let mut out = [0.0; LANES];
-                for k in 0..LANES {
-                    out[k] = self.0[k] $op other.0[k];
-                }
-                Self(out)
+                self.zip(other, |a, b| a $op b)
             }
         }
         impl $trait<f64> for F8 {
             type Output = Self;
             #[inline(always)]
             fn $method(self, other: f64) -> Self {
-                let mut out = [0.0; LANES];
-                for k in 0..LANES {
-                    out[k] = self.0[k] $op other;
-                }
-                Self(out)
-            }
-        }
-        impl $trait<F8> for f64 {
-            type Output = F8;
-            #[inline(always)]
-            fn $method(self, other: F8) -> F8 {
-                let mut out = [0.0; LANES];
-                for k in 0..LANES {
-                    out[k] = self $op other.0[k];
-                }
-                F8(out)
+                self.map(|a| a $op other)
             }
         }
     };
@@ -85,170 +223,74 @@ impl Neg for F8 {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
-        let mut out = [0.0; LANES];
-        for k in 0..LANES {
-            out[k] = -self.0[k];
-        }
-        Self(out)
+        self.map(|x| -x)
     }
 }
 
-impl F8 {
-    /// Eight zeros.
-    pub const ZERO: Self = Self([0.0; LANES]);
-
-    /// Eight times the same number.
+impl Lanes for F8 {
     #[inline(always)]
-    #[must_use]
-    pub fn splat(x: f64) -> Self {
+    fn splat(x: f64) -> Self {
         Self([x; LANES])
     }
 
-    /// The numbers from `at` on.
-    ///
-    /// # Panics
-    /// Where fewer than eight are left.
     #[inline(always)]
-    #[must_use]
-    pub fn load(from: &[f64], at: usize) -> Self {
-        let mut out = [0.0; LANES];
-        out.copy_from_slice(&from[at..at + LANES]);
-        Self(out)
+    fn of(x: F8) -> Self {
+        x
     }
 
-    /// Writes the numbers from `at` on.
-    ///
-    /// # Panics
-    /// Where fewer than eight have room.
     #[inline(always)]
-    pub fn store(self, to: &mut [f64], at: usize) {
-        to[at..at + LANES].copy_from_slice(&self.0);
+    fn pack(self) -> F8 {
+        self
     }
 
-    /// Lane by lane.
     #[inline(always)]
-    #[must_use]
-    pub fn map(self, f: impl Fn(f64) -> f64) -> Self {
-        let mut out = [0.0; LANES];
-        for k in 0..LANES {
-            out[k] = f(self.0[k]);
-        }
-        Self(out)
+    fn max(self, other: Self) -> Self {
+        self.zip(other, |a, b| if a > b { a } else { b })
     }
 
-    /// The larger of each two; the second where the first is not a number.
     #[inline(always)]
-    #[must_use]
-    pub fn max(self, other: Self) -> Self {
-        Self::select(self.gt(other), self, other)
+    fn min(self, other: Self) -> Self {
+        self.zip(other, |a, b| if a < b { a } else { b })
     }
 
-    /// The smaller of each two; the second where the first is not a number.
     #[inline(always)]
-    #[must_use]
-    pub fn min(self, other: Self) -> Self {
-        Self::select(self.lt(other), self, other)
-    }
-
-    /// Square roots.
-    #[inline(always)]
-    #[must_use]
-    pub fn sqrt(self) -> Self {
+    fn sqrt(self) -> Self {
         self.map(f64::sqrt)
     }
 
-    /// Where a lane is below the other's.
     #[inline(always)]
-    #[must_use]
-    pub fn lt(self, other: Self) -> M8 {
-        let mut out = [false; LANES];
+    fn lt(self, other: Self) -> Mask {
+        let mut mask = 0;
         for k in 0..LANES {
-            out[k] = self.0[k] < other.0[k];
+            mask |= u8::from(self.0[k] < other.0[k]) << k;
         }
-        M8(out)
+        mask
     }
 
-    /// Where a lane is above the other's.
     #[inline(always)]
-    #[must_use]
-    pub fn gt(self, other: Self) -> M8 {
-        other.lt(self)
+    fn select(mask: Mask, yes: Self, no: Self) -> Self {
+        let mut out = no.0;
+        for (k, out) in out.iter_mut().enumerate() {
+            if mask >> k & 1 == 1 {
+                *out = yes.0[k];
+            }
+        }
+        Self(out)
     }
 
-    /// `yes` where the mask says so, `no` elsewhere.
     #[inline(always)]
-    #[must_use]
-    pub fn select(mask: M8, yes: Self, no: Self) -> Self {
+    fn shifted(self) -> Self {
         let mut out = [0.0; LANES];
-        for k in 0..LANES {
-            out[k] = if mask.0[k] { yes.0[k] } else { no.0[k] };
-        }
+        out[1..].copy_from_slice(&self.0[..LANES - 1]);
         Self(out)
     }
 
-    /// Sum in the order of the lanes, in pairs.
     #[inline(always)]
-    #[must_use]
-    pub fn sum(self) -> f64 {
-        let [a, b, c, d, e, f, g, h] = self.0;
-        ((a + b) + (c + d)) + ((e + f) + (g + h))
-    }
-
-    /// Smallest lane.
-    #[inline(always)]
-    #[must_use]
-    pub fn least(self) -> f64 {
-        self.0.into_iter().fold(f64::INFINITY, f64::min)
-    }
-
-    /// `x^(-1/3)` of positive lanes to a relative error of 4e-16; exactly 1 at 1.
-    ///
-    /// A bit trick gives 4 % accuracy, and each correction by the third-order series of
-    /// `(1 - e)^(-1/3)` raises the error to the fourth power.
-    #[inline(always)]
-    #[must_use]
-    pub fn inverse_cube_root(self) -> Self {
-        let mut seed = [0.0; LANES];
-        for k in 0..LANES {
-            // A third of the upper half of the bits, as a multiplication.
-            let third = (self.0[k].to_bits() >> 32) * 0x5555_5556 >> 32;
-            seed[k] = f64::from_bits(0x553e_f0ff_u64.wrapping_sub(third) << 32);
-        }
-        let mut y = Self(seed);
-        for _ in 0..3 {
-            let e = 1.0 - self * y * y * y;
-            y += y * e * (1.0 / 3.0 + e * (2.0 / 9.0 + e * (14.0 / 81.0)));
-        }
-        let one = Self::splat(1.0);
-        let mut exact = [false; LANES];
-        for k in 0..LANES {
-            exact[k] = self.0[k] == 1.0;
-        }
-        Self::select(M8(exact), one, y)
-    }
-}
-
-impl M8 {
-    /// From the bits of a mask, lane 0 lowest.
-    #[inline(always)]
-    #[must_use]
-    pub fn from_bits(bits: u8) -> Self {
-        let mut out = [false; LANES];
-        for k in 0..LANES {
-            out[k] = bits & (1 << k) != 0;
-        }
-        Self(out)
-    }
-
-    /// The bits of the mask, lane 0 lowest.
-    #[inline(always)]
-    #[must_use]
-    pub fn bits(self) -> u8 {
-        let mut out = 0;
-        for k in 0..LANES {
-            out |= u8::from(self.0[k]) << k;
-        }
-        out
+    fn root_seed(self) -> Self {
+        self.map(|x| {
+            let third = (x.to_bits() >> 32) * THIRD >> 32;
+            f64::from_bits(SEED.wrapping_sub(third) << 32)
+        })
     }
 }
 
@@ -267,9 +309,10 @@ mod tests {
     }
 
     #[test]
-    fn masks_survive_their_bits() {
-        for bits in 0..=255 {
-            assert_eq!(M8::from_bits(bits).bits(), bits);
-        }
+    fn masks_name_lanes_from_the_lowest_bit() {
+        let a = F8([0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]);
+        assert_eq!(a.lt(F8::splat(2.5)), 0b0000_0111);
+        assert_eq!(a.keep(0b1000_0001).0, [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 7.0]);
+        assert_eq!(a.shifted().0, [0.0, 0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0]);
     }
 }

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::lanes::Lanes;
 use super::simulation::Simulation;
 
 /// Sums over a body, or over all.

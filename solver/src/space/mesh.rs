@@ -8,7 +8,7 @@
 use std::ops::Range;
 
 use super::eos::Eos;
-use super::lanes::{F8, LANES};
+use super::lanes::{F8, LANES, Lanes, Mask};
 use super::lattice::{CENTROID_SHARE, Lattice};
 use super::scene::{Body as BodyData, Scene};
 use super::strength::Solid;
@@ -45,6 +45,13 @@ pub struct Body {
     pub corners: [[f64; 3]; 8],
     /// Reference volumes of the six pyramids, by the arithmetic of the elements.
     pub pyramids: [f64; 6],
+    /// One over them.
+    pub per_pyramid: [f64; 6],
+    /// Area of the bonds of its elements for the limited viscosity, `3/4 a^2`, and `V_o^(2/3)` for
+    /// the printed one.
+    pub bond_areas: [f64; 2],
+    /// Slope of the shock speed.
+    pub slope: f64,
 }
 
 /// Up to eight elements, neighbours along the fast axis.
@@ -76,6 +83,12 @@ pub struct Group {
     pub tension: [F8; 6],
     /// Viscous force over separation of the eight bonds.
     pub bonds: [F8; 8],
+    /// Viscous pressure of the six pyramids.
+    pub stiff: [F8; 6],
+    /// First of the centroids beyond each corner, lane by lane.
+    pub beyond: [u32; 8],
+    /// Lanes that have a live element beyond each corner.
+    pub has_beyond: [Mask; 8],
     /// Effective plastic strain.
     pub strain: F8,
     /// Hardening and rate factor of the yield stress, softening apart.
@@ -205,7 +218,9 @@ impl Mesh {
                     let lanes = (run.cells - from).min(LANES);
                     let rows = run.rows.map(|row| row + (from + body.nodes.start) as u32);
                     let centre = run.centre + (from + body.centroids.start) as u32;
-                    groups.push(Group::new(rows, centre, index as u16, lanes, &body.solid));
+                    let mut group = Group::new(rows, centre, index as u16, lanes, &body.solid);
+                    group.look_beyond(body);
+                    groups.push(group);
                 }
             }
             if groups.len() - chunk_start >= CHUNK_GROUPS || plane + 1 == planes {
@@ -301,6 +316,12 @@ impl Mesh {
         nodes.chain(cells)
     }
 
+    /// Whether all elements of a particle are live.
+    #[must_use]
+    pub fn whole(&self, i: usize) -> bool {
+        self.ratio[i] == 1.0
+    }
+
     /// Whether particles at these coordinates of a body share a live element.
     #[must_use]
     pub fn bonded(&self, body: usize, a: [i16; 3], b: [i16; 3]) -> bool {
@@ -348,6 +369,7 @@ impl Body {
         let material = &scene.materials[index];
         let eos = Eos::new(material);
         let corners = corners(&lattice);
+        let pyramids = super::element::pyramid_volumes(&corners);
         Self {
             material: index,
             eos,
@@ -355,7 +377,11 @@ impl Body {
             rho_0: material.density,
             length: lattice.contact_length(),
             cell_volume: lattice.cell_volume(),
-            pyramids: super::element::pyramid_volumes(&corners),
+            pyramids,
+            per_pyramid: pyramids.map(|volume| 1.0 / volume),
+            bond_areas: [0.75, 0.5f64.powf(2.0 / 3.0)]
+                .map(|share| share * lattice.cell_volume().powf(2.0 / 3.0)),
+            slope: eos.slope(),
             corners,
             lattice,
             nodes: nodes.clone(),
@@ -372,6 +398,21 @@ impl Body {
     #[must_use]
     pub fn edge(&self) -> f64 {
         self.solid.edge
+    }
+
+    /// Rate of damping of a particle inside per viscosity coefficient of its eight bonds.
+    #[inline(always)]
+    #[must_use]
+    pub fn damping(&self) -> f64 {
+        let mass = 0.5 * self.rho_0 * self.cell_volume;
+        2.0 / 3.0 * 8.0 / mass
+    }
+
+    /// Square of the longitudinal wave speed over the bulk one's.
+    #[inline(always)]
+    #[must_use]
+    pub fn stiffening(&self) -> f64 {
+        if self.solid.mu > 0.0 { 1.0 + 4.0 / 3.0 * self.solid.mu / self.solid.bulk } else { 1.0 }
     }
 
     /// Sound speed of its particles in the reference state.
@@ -410,10 +451,52 @@ impl Group {
             piola: [F8::ZERO; 9],
             tension: [F8::ZERO; 6],
             bonds: [F8::ZERO; 8],
+            stiff: [F8::ZERO; 6],
+            beyond: [0; 8],
+            has_beyond: [0; 8],
             strain: F8::ZERO,
             flow: F8::splat(solid.first_flow()),
             rate: F8::ZERO,
             damage: F8::ZERO,
+        }
+    }
+
+    /// Finds the elements that continue the diagonals beyond the corners. They lie in one row side by
+    /// side, as the elements of the group do; what does not is left out.
+    fn look_beyond(&mut self, body: &Body) {
+        let lattice = &body.lattice;
+        for corner in 0..8 {
+            let way = [0, 1, 2].map(|d| if corner >> d & 1 == 1 { 2 } else { -2 });
+            let mut first = None;
+            for lane in 0..u32::from(self.lanes) {
+                let own = (self.centre + lane) as usize - body.centroids.start;
+                let at = lattice.centroids[own];
+                let cell = lattice.cell([at[0] + way[0], at[1] + way[1], at[2] + way[2]]);
+                if cell == super::lattice::NONE {
+                    continue;
+                }
+                let centre = cell + body.centroids.start as u32;
+                // The first lanes may be without: their places count backwards.
+                let start = *first.get_or_insert(centre.saturating_sub(lane));
+                if start + lane == centre {
+                    self.has_beyond[corner] |= 1 << lane;
+                }
+            }
+            self.beyond[corner] = first.unwrap_or(self.centre);
+        }
+    }
+
+    /// Forgets elements beyond the corners that are no volume any more.
+    pub fn look_beyond_the_dead(&mut self, ratio: &[f64]) {
+        for corner in 0..8 {
+            let mut left = self.has_beyond[corner];
+            while left != 0 {
+                let lane = left.trailing_zeros();
+                left &= left - 1;
+                if ratio[(self.beyond[corner] + lane) as usize] == 0.0 {
+                    self.has_beyond[corner] &= !(1 << lane);
+                }
+            }
         }
     }
 

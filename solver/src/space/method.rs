@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::method::{Density, Heating, Integrator, Preset};
+use crate::method::{Density, Heating, Integrator, Preset, Viscosity};
 
 /// Reading of the printed yield function, Eqs. (39)-(46).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -38,14 +38,23 @@ pub struct Method {
     pub heating: Heating,
     /// Reading of the yield function.
     pub yield_norm: YieldNorm,
+    /// Form of the viscosity and of the conduction.
+    pub viscosity: Viscosity,
     /// Linear viscosity coefficient, `c_o` of Eq. (53).
     pub visc_linear: f64,
     /// Quadratic viscosity coefficient, `c_1` of Eq. (53).
     pub visc_quad: f64,
-    /// Heat diffusion coefficient, `k_o` of Eq. (57); zero for none.
+    /// Coefficient of the limited viscosity on receding bonds, over the sound speed.
+    pub visc_expansion: f64,
+    /// Coefficient of the viscous pressure of collapsing pyramids; zero for none.
+    pub visc_volume: f64,
+    /// Steepness of the limiter: how small a neighbouring jump still explains a bond's own.
+    pub limiter: f64,
+    /// Heat diffusion coefficient: `k_o` of Eq. (57), or of the flux in shocks; zero for none.
     pub heat_coeff: f64,
-    /// Damping of the hourglass modes; zero for none.
-    pub hourglass: f64,
+    /// Part of the opposite corners in the pressure of a pyramid (decision 0013): 1 moves nodes and
+    /// centroids alike in a smooth field, 0 is the plain mean.
+    pub balance: f64,
     /// Tolerance of the contact condition (35): contact while
     /// `zeta (rho/rho_o)^(1/3) < 1 + tolerance`.
     pub contact_tolerance: f64,
@@ -63,29 +72,37 @@ impl Preset {
     /// The choices of the preset in three dimensions.
     #[must_use]
     pub fn space(self) -> Method {
-        let shared = Method {
+        let default = Method {
             density: Density::Hybrid,
             integrator: Integrator::Compatible,
             heating: Heating::Pair,
             yield_norm: YieldNorm::Mises,
+            viscosity: Viscosity::Limited,
             visc_linear: 0.3,
-            visc_quad: 0.0,
-            heat_coeff: 0.1,
-            hourglass: 0.0,
+            visc_quad: 1.0,
+            visc_expansion: 0.5,
+            visc_volume: 0.0,
+            limiter: 4.0,
+            heat_coeff: 1.0,
+            balance: 1.0,
             contact_tolerance: 0.06,
             contact_reach: 1.12,
             release: Release::Crossings(5.0),
             spall: true,
-            cfl: 0.3,
+            cfl: 0.8,
         };
         match self {
             Self::Paper => Method {
                 density: Density::Nonholonomic,
+                viscosity: Viscosity::Pairwise,
+                visc_quad: 0.0,
+                visc_expansion: 0.0,
+                heat_coeff: 0.1,
                 release: Release::Steps(20.0),
                 spall: false,
-                ..shared
+                ..default
             },
-            Self::Default => shared,
+            Self::Default => default,
         }
     }
 }

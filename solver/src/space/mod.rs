@@ -17,6 +17,8 @@ pub mod simulation;
 pub mod strength;
 pub mod sweep;
 pub mod walls;
+#[cfg(target_arch = "x86_64")]
+pub mod wide;
 
 pub use scene::Scene;
 pub use simulation::Simulation;

@@ -5,6 +5,7 @@
 use super::columns::SumsSlices;
 use super::dispatch::{Instructions, Kernel};
 use super::element::{Demand, Laws, Read, Sink};
+use super::lanes::Lanes;
 use super::mesh::{Chunk, Group, Mesh};
 
 /// A pass over elements.
@@ -14,7 +15,7 @@ pub trait Pass: Sync {
     /// Result of nothing.
     const NONE: Self::Output;
     /// What is done with a group.
-    fn group(&self, group: &mut Group, mesh: &Mesh, sink: &mut Sink<'_>) -> Self::Output;
+    fn group<F: Lanes>(&self, group: &mut Group, mesh: &Mesh, sink: &mut Sink<'_>) -> Self::Output;
     /// Joins two results.
     fn and(one: Self::Output, other: Self::Output) -> Self::Output;
 }
@@ -112,7 +113,7 @@ impl<P: Pass> Kernel for Whole<'_, '_, P> {
     type Output = P::Output;
 
     #[inline(always)]
-    fn run(self) -> P::Output {
+    fn run<F: Lanes>(self) -> P::Output {
         let Self { coloured, chunk, held } = self;
         let mut sink = Sink {
             nodes: held.nodes,
@@ -123,7 +124,7 @@ impl<P: Pass> Kernel for Whole<'_, '_, P> {
         let mut out = P::NONE;
         for group in &mut held.groups[..chunk.groups.len()] {
             if group.awake && group.live != 0 {
-                out = P::and(out, coloured.pass.group(group, coloured.mesh, &mut sink));
+                out = P::and(out, coloured.pass.group::<F>(group, coloured.mesh, &mut sink));
             }
         }
         out
@@ -136,8 +137,6 @@ pub struct Load<'a> {
     pub laws: Laws,
     /// Particles.
     pub read: Read<'a>,
-    /// Whether elements carry the pressure.
-    pub volumes: bool,
 }
 
 impl Pass for Load<'_> {
@@ -145,12 +144,12 @@ impl Pass for Load<'_> {
     const NONE: Demand = Demand::NONE;
 
     #[inline(always)]
-    fn group(&self, group: &mut Group, mesh: &Mesh, sink: &mut Sink<'_>) -> Demand {
+    fn group<F: Lanes>(&self, group: &mut Group, mesh: &Mesh, sink: &mut Sink<'_>) -> Demand {
         let body = &mesh.bodies[group.body as usize];
-        if self.volumes {
-            group.load_particles::<true>(body, &self.laws, &self.read, sink)
+        if self.laws.volumes {
+            group.load_particles::<F, true>(body, &self.laws, &self.read, sink)
         } else {
-            group.load_particles::<false>(body, &self.laws, &self.read, sink)
+            group.load_particles::<F, false>(body, &self.laws, &self.read, sink)
         }
     }
 
@@ -162,14 +161,12 @@ impl Pass for Load<'_> {
 
 /// Second pass.
 pub struct Labour<'a> {
+    /// Laws, with the length of the kick.
+    pub laws: Laws,
     /// Displacements.
     pub displacement: [&'a [f64]; 3],
     /// Mean velocities of the step.
     pub mean: [&'a [f64]; 3],
-    /// Length of the kick.
-    pub kick: f64,
-    /// Whether elements carry the pressure.
-    pub volumes: bool,
 }
 
 impl Pass for Labour<'_> {
@@ -177,15 +174,14 @@ impl Pass for Labour<'_> {
     const NONE: f64 = 0.0;
 
     #[inline(always)]
-    fn group(&self, group: &mut Group, mesh: &Mesh, sink: &mut Sink<'_>) -> f64 {
+    fn group<F: Lanes>(&self, group: &mut Group, mesh: &Mesh, sink: &mut Sink<'_>) -> f64 {
         let body = &mesh.bodies[group.body as usize];
-        let motion = (self.displacement, self.mean, self.kick);
-        let power = if self.volumes {
-            group.work::<true>(body, motion, sink)
+        let motion = (self.displacement, self.mean);
+        if self.laws.volumes {
+            group.work::<F, true>(body, motion, &self.laws, sink)
         } else {
-            group.work::<false>(body, motion, sink)
-        };
-        power.sum()
+            group.work::<F, false>(body, motion, &self.laws, sink)
+        }
     }
 
     #[inline(always)]

@@ -343,7 +343,9 @@ impl Method {
             ("method.visc_linear", self.visc_linear),
             ("method.visc_quad", self.visc_quad),
             ("method.heat_coeff", self.heat_coeff),
-            ("method.hourglass", self.hourglass),
+            ("method.visc_expansion", self.visc_expansion),
+            ("method.visc_volume", self.visc_volume),
+            ("method.limiter", self.limiter),
             ("method.contact_tolerance", self.contact_tolerance),
         ] {
             not_negative(key, value)?;

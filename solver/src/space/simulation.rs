@@ -19,6 +19,9 @@ use crate::method::Density;
 /// Largest growth of the time step.
 const GROWTH: f64 = 1.05;
 
+/// Longest step over the time in which sound crosses a particle, or the cell of a body at rest.
+pub(super) const CROSSING: f64 = 0.375;
+
 /// Smallest time step over the first one.
 const COLLAPSED: f64 = 1e-6;
 
@@ -181,23 +184,22 @@ impl Simulation {
         Ok(())
     }
 
+    fn laws(&self, dt: f64) -> Laws {
+        Laws { method: self.method, volumes: self.volumes, dt }
+    }
+
     /// Forces on all particles: elements, then contacts.
     fn load(&mut self) {
         let pass = Load {
-            laws: Laws {
-                visc_linear: self.method.visc_linear,
-                visc_quad: self.method.visc_quad,
-                heat_coeff: self.method.heat_coeff,
-                dt: self.dt,
-            },
+            laws: self.laws(self.dt),
             read: Read {
                 displacement: [&self.state.dx, &self.state.dy, &self.state.dz],
                 velocity: [&self.state.vx, &self.state.vy, &self.state.vz],
                 grip: &self.derived.grip,
                 theta: &self.derived.theta,
                 sound: &self.derived.sound,
+                rho: &self.derived.rho,
             },
-            volumes: self.volumes,
         };
         let (mesh, groups) = (&self.mesh, &mut self.groups);
         self.demand = over_elements(&pass, mesh, groups, self.sums.slices(), self.instructions);
@@ -212,17 +214,14 @@ impl Simulation {
 
     /// The length of the step: what sound, the density and the elements allow, and landing on `until`.
     fn elect(&mut self, until: f64) -> Result<f64, StepError> {
-        let method = &self.method;
-        let viscous =
-            1.0 + method.visc_linear * (0.3 + 2.0 * method.visc_quad * self.demand.closing);
-        let mut dt = self.allowed.sound / viscous;
+        let mut dt = self.allowed.sound;
         for body in &self.mesh.bodies {
-            dt = dt.min(body.edge() / (body.solid.sound * viscous));
+            dt = dt.min(CROSSING * body.edge() / body.solid.sound);
         }
         if self.demand.rate > 0.0 {
             dt = dt.min(1.0 / self.demand.rate);
         }
-        let mut dt = (method.cfl * dt).min(self.allowed.density);
+        let mut dt = (self.method.cfl * dt).min(self.allowed.density);
         if self.dt > 0.0 {
             dt = dt.min(GROWTH * self.dt);
         } else {
@@ -270,10 +269,9 @@ impl Simulation {
     /// work and strain.
     fn work(&mut self) {
         let pass = Labour {
+            laws: self.laws(self.kick),
             displacement: [&self.state.dx, &self.state.dy, &self.state.dz],
             mean: [&self.derived.mx, &self.derived.my, &self.derived.mz],
-            kick: self.kick,
-            volumes: self.volumes,
         };
         let (mesh, groups) = (&self.mesh, &mut self.groups);
         let power = over_elements(&pass, mesh, groups, self.sums.slices(), self.instructions);
@@ -288,6 +286,7 @@ impl Simulation {
             active: &self.active,
             touched: &self.touched,
             instructions: self.instructions,
+            volumes: self.volumes,
             kick: self.kick,
             dt: self.dt,
         };
@@ -308,6 +307,7 @@ impl Simulation {
         if !self.demand.dying {
             return;
         }
+        let mut buried = false;
         for group in self.groups.iter_mut().filter(|group| group.dying != 0) {
             for lane in (0..u32::from(group.lanes)).filter(|lane| group.dying >> lane & 1 == 1) {
                 self.mesh.bury(group.centre + lane);
@@ -318,6 +318,12 @@ impl Simulation {
             }
             group.live &= !group.dying;
             group.dying = 0;
+            buried = true;
+        }
+        if buried {
+            for group in &mut self.groups {
+                group.look_beyond_the_dead(&self.mesh.ratio);
+            }
         }
     }
 

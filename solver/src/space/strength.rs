@@ -1,12 +1,12 @@
 //! Resistance to shear: plastic flow, Eqs. (38)-(46), and what makes elements fail, Eq. (47).
 
-use super::lanes::{F8, LANES, M8};
+use super::lanes::{F8, LANES, Lanes, Mask, each};
 use super::lattice::Lattice;
 use super::method::{Method, Release, YieldNorm};
 use super::scene::{Flow, Material};
 
 /// A symmetric tensor: 11, 22, 33, 12, 13, 23.
-pub type Sym = [F8; 6];
+pub type Sym<F> = [F; 6];
 
 /// Sweeps of the return map after which it gives up; two are enough nearly always.
 const SWEEPS: usize = 20;
@@ -91,20 +91,21 @@ impl Solid {
 
     /// Factor of the yield stress at a temperature.
     #[inline(always)]
-    fn softening(&self, theta: F8) -> F8 {
+    fn softening<F: Lanes>(&self, theta: F) -> F {
+        let one = F::splat(1.0);
         let homologous = |reference: f64, melt: f64| {
             let h = (theta - reference) * (1.0 / (melt - reference));
-            h.max(F8::ZERO).min(F8::splat(1.0))
+            h.max(F::zero()).min(one)
         };
         match self.flow {
             Some(Flow::Hardening { eta, reference, melt, .. }) => {
-                (1.0 - eta * homologous(reference, melt)).max(F8::ZERO)
+                (one - homologous(reference, melt) * eta).max(F::zero())
             }
             Some(Flow::JohnsonCook { m, reference, melt, .. }) => {
                 let h = homologous(reference, melt);
-                if m == 1.0 { 1.0 - h } else { 1.0 - h.map(|h| h.powf(m)) }
+                one - if m == 1.0 { h } else { F::of(h.pack().map(|h| h.powf(m))) }
             }
-            None => F8::splat(1.0),
+            None => one,
         }
     }
 
@@ -127,9 +128,9 @@ impl Solid {
 
     /// Squared factor between the norm of the effective stress and the yield stress.
     #[inline(always)]
-    fn reading(&self, c_plastic: &Sym) -> F8 {
+    fn reading<F: Lanes>(&self, c_plastic: &Sym<F>) -> F {
         match self.norm {
-            YieldNorm::Mises => F8::splat(1.0),
+            YieldNorm::Mises => F::splat(1.0),
             YieldNorm::J2 => half_square(c_plastic) * (2.0 / 3.0),
             YieldNorm::AsPrinted => half_square(c_plastic),
         }
@@ -149,86 +150,103 @@ impl Solid {
     /// The elastic strain is `total - plastic`; `modulus` is `2 (1 - d) mu` and `theta` the elements'
     /// temperature. Only lanes of `live` flow. Returns the stress.
     #[inline(always)]
-    pub fn flow(&self, total: &Sym, own: &mut Plastic<'_>, load: &Load) -> Sym {
-        let mut stress = stress_of(total, own.plastic, load.modulus);
+    pub fn flow<F: Lanes>(
+        &self,
+        total: &Sym<F>,
+        plastic: &mut Sym<F>,
+        own: &mut Flowing<'_>,
+        load: &Load<F>,
+    ) -> Sym<F> {
+        let stress = stress_of(total, plastic, load.modulus);
         let soft = self.softening(load.theta) * load.intact * self.level();
-        let c_plastic = c_of(own.plastic);
+        let c_plastic = c_of(plastic);
         let driver = effective(&c_plastic, &stress);
-        let limit = *own.flow * soft;
+        let limit = F::of(*own.flow) * soft;
         let over = half_square(&driver).gt(limit * limit * self.reading(&c_plastic));
-        let yielding = over.bits() & load.live;
-        if yielding != 0 {
-            self.land(total, own, load, (soft, yielding));
-            stress = stress_of(total, own.plastic, load.modulus);
+        let yielding = over & load.live;
+        if yielding == 0 {
+            return stress;
         }
-        stress
+        let mut memory = each_packed(plastic);
+        let load = Load {
+            modulus: load.modulus.pack(),
+            intact: load.intact.pack(),
+            theta: load.theta.pack(),
+            live: load.live,
+            dt: load.dt,
+        };
+        self.land(&each_packed(total), &mut memory, own, (&load, soft.pack(), yielding));
+        *plastic = each(|k| F::of(memory[k]));
+        stress_of(total, plastic, F::of(load.modulus))
     }
 
     /// Newton sweeps of the yielding lanes.
     #[inline(never)]
-    fn land(&self, total: &Sym, own: &mut Plastic<'_>, load: &Load, (soft, yielding): (F8, u8)) {
-        let mask = M8::from_bits(yielding);
+    fn land(
+        &self,
+        total: &Sym<F8>,
+        plastic: &mut Sym<F8>,
+        own: &mut Flowing<'_>,
+        (load, soft, yielding): (&Load<F8>, F8, Mask),
+    ) {
         let (before, rate) = (*own.strain, *own.rate);
         let tiny = F8::splat(1e-300);
         for _ in 0..SWEEPS {
-            let stress = stress_of(total, own.plastic, load.modulus);
-            let c_plastic = c_of(own.plastic);
-            let scale = 1.0 / self.reading(&c_plastic).sqrt();
-            let driver = effective(&c_plastic, &stress).map(|s| s * scale);
+            let stress = stress_of(total, plastic, load.modulus);
+            let c_plastic = c_of(plastic);
+            let scale = F8::splat(1.0) / self.reading(&c_plastic).sqrt();
+            let driver = scaled(&effective(&c_plastic, &stress), scale);
             let size = half_square(&driver).sqrt().max(tiny);
-            let slope = self.update(own, (&rate, yielding), &soft);
+            let slope = self.update(own, (&rate, yielding)) * soft;
             let gap = size - *own.flow * soft;
-            let near = LANDED * (*own.flow * soft) + 1e-13 * load.modulus;
-            let away = gap.gt(near).bits() | (-gap).gt(near).bits();
-            if away & yielding == 0 {
+            let near = *own.flow * soft * LANDED + load.modulus * 1e-13;
+            if gap.abs().gt(near) & yielding == 0 {
                 break;
             }
-            let flow = symmetric_product(&c_plastic, &driver).map(|n| n * scale);
+            let flow = scaled(&symmetric_product(&c_plastic, &driver), scale);
             let normal = half_square(&flow) / (size * size);
             let measure = self.measure(&flow, size);
             let step = gap / (load.modulus * normal + slope * measure).max(tiny);
-            let step = F8::select(mask, step, F8::ZERO);
-            for (strain, flow) in own.plastic.iter_mut().zip(flow) {
+            let step = step.keep(yielding);
+            for (strain, flow) in plastic.iter_mut().zip(flow) {
                 *strain += step / size * flow;
             }
             *own.strain = (*own.strain + step * measure).max(before);
         }
         let flowed = (*own.strain - before) * (1.0 / load.dt.max(1e-300));
-        *own.rate = F8::select(mask, 0.5 * (rate + flowed), rate);
+        *own.rate = F8::select(yielding, (rate + flowed) * 0.5, rate);
     }
 
     /// Effective plastic strain per increment of `lambda`: the equivalent strain for the von Mises
     /// reading, the norm (45) otherwise.
     #[inline(always)]
-    fn measure(&self, flow: &Sym, size: F8) -> F8 {
+    fn measure(&self, flow: &Sym<F8>, size: F8) -> F8 {
         match self.norm {
             YieldNorm::Mises => F8::splat(2.0 / 3f64.sqrt()),
             YieldNorm::J2 | YieldNorm::AsPrinted => half_square(flow).sqrt() / size,
         }
     }
 
-    /// Sets the yield stress of the yielding lanes; its slope, softening included.
-    fn update(&self, own: &mut Plastic<'_>, (rate, yielding): (&F8, u8), soft: &F8) -> F8 {
+    /// Sets the yield stress of the yielding lanes; its slope.
+    fn update(&self, own: &mut Flowing<'_>, (rate, yielding): (&F8, Mask)) -> F8 {
         let mut slope = F8::ZERO;
         for k in (0..LANES).filter(|k| yielding >> k & 1 == 1) {
             (own.flow.0[k], slope.0[k]) = self.harden(own.strain.0[k], rate.0[k]);
         }
-        slope * *soft
+        slope
     }
 
     /// Lanes that meet a failure criterion of strain or temperature.
     #[inline(always)]
     #[must_use]
-    pub fn spent(&self, strain: F8, theta: F8) -> u8 {
-        strain.gt(F8::splat(self.strain)).bits() | theta.gt(F8::splat(self.melt)).bits()
+    pub fn spent<F: Lanes>(&self, strain: F, theta: F) -> Mask {
+        strain.gt(F::splat(self.strain)) | theta.gt(F::splat(self.melt))
     }
 }
 
-/// The plastic state of up to eight elements.
+/// Hardening of up to eight elements.
 #[derive(Debug)]
-pub struct Plastic<'a> {
-    /// Plastic strain `E^p`.
-    pub plastic: &'a mut Sym,
+pub struct Flowing<'a> {
     /// Effective plastic strain.
     pub strain: &'a mut F8,
     /// Yield stress, softening apart.
@@ -239,60 +257,71 @@ pub struct Plastic<'a> {
 
 /// What the flow sees of its surroundings.
 #[derive(Debug, Clone, Copy)]
-pub struct Load {
+pub struct Load<F> {
     /// `2 (1 - d) mu`.
-    pub modulus: F8,
+    pub modulus: F,
     /// `1 - d`.
-    pub intact: F8,
+    pub intact: F,
     /// Temperature.
-    pub theta: F8,
+    pub theta: F,
     /// Lanes that may flow.
-    pub live: u8,
+    pub live: Mask,
     /// Length of the last step.
     pub dt: f64,
 }
 
 #[inline(always)]
-fn stress_of(total: &Sym, plastic: &Sym, modulus: F8) -> Sym {
-    std::array::from_fn(|k| modulus * (total[k] - plastic[k]))
+fn each_packed<F: Lanes>(t: &Sym<F>) -> Sym<F8> {
+    each(|k| t[k].pack())
+}
+
+#[inline(always)]
+fn scaled<F: Lanes>(t: &Sym<F>, factor: F) -> Sym<F> {
+    each(|k| factor * t[k])
+}
+
+#[inline(always)]
+fn stress_of<F: Lanes>(total: &Sym<F>, plastic: &Sym<F>, modulus: F) -> Sym<F> {
+    each(|k| modulus * (total[k] - plastic[k]))
 }
 
 /// `C^p = I + 2 E^p`.
 #[inline(always)]
-fn c_of(plastic: &Sym) -> Sym {
-    std::array::from_fn(|k| 2.0 * plastic[k] + if k < 3 { 1.0 } else { 0.0 })
+fn c_of<F: Lanes>(plastic: &Sym<F>) -> Sym<F> {
+    each(|k| plastic[k] * 2.0 + if k < 3 { 1.0 } else { 0.0 })
 }
 
 /// `T : T / 2`, the square of the norm (40).
 #[inline(always)]
 #[must_use]
-pub fn half_square(t: &Sym) -> F8 {
-    0.5 * (t[0] * t[0] + t[1] * t[1] + t[2] * t[2]) + t[3] * t[3] + t[4] * t[4] + t[5] * t[5]
+pub fn half_square<F: Lanes>(t: &Sym<F>) -> F {
+    let diagonal = t[0] * t[0] + t[1] * t[1] + t[2] * t[2];
+    diagonal * 0.5 + (t[3] * t[3] + t[4] * t[4] + t[5] * t[5])
 }
 
 /// `A : B` of symmetric tensors.
 #[inline(always)]
 #[must_use]
-pub fn contract(a: &Sym, b: &Sym) -> F8 {
-    (a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) + 2.0 * (a[3] * b[3] + a[4] * b[4] + a[5] * b[5])
+pub fn contract<F: Lanes>(a: &Sym<F>, b: &Sym<F>) -> F {
+    (a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) + (a[3] * b[3] + a[4] * b[4] + a[5] * b[5]) * 2.0
 }
 
 /// `(A B + B A) / 2`.
 #[inline(always)]
-fn symmetric_product(a: &Sym, b: &Sym) -> Sym {
+fn symmetric_product<F: Lanes>(a: &Sym<F>, b: &Sym<F>) -> Sym<F> {
     [
         a[0] * b[0] + a[3] * b[3] + a[4] * b[4],
         a[3] * b[3] + a[1] * b[1] + a[5] * b[5],
         a[4] * b[4] + a[5] * b[5] + a[2] * b[2],
-        0.5 * ((a[0] + a[1]) * b[3] + a[3] * (b[0] + b[1]) + a[4] * b[5] + a[5] * b[4]),
-        0.5 * ((a[0] + a[2]) * b[4] + a[4] * (b[0] + b[2]) + a[3] * b[5] + a[5] * b[3]),
-        0.5 * ((a[1] + a[2]) * b[5] + a[5] * (b[1] + b[2]) + a[3] * b[4] + a[4] * b[3]),
+        ((a[0] + a[1]) * b[3] + a[3] * (b[0] + b[1]) + a[4] * b[5] + a[5] * b[4]) * 0.5,
+        ((a[0] + a[2]) * b[4] + a[4] * (b[0] + b[2]) + a[3] * b[5] + a[5] * b[3]) * 0.5,
+        ((a[1] + a[2]) * b[5] + a[5] * (b[1] + b[2]) + a[3] * b[4] + a[4] * b[3]) * 0.5,
     ]
 }
 
 /// Deviator of the symmetric product: the effective stress (39) without its norm.
 #[inline(always)]
-fn effective(c_plastic: &Sym, stress: &Sym) -> Sym {
+fn effective<F: Lanes>(c_plastic: &Sym<F>, stress: &Sym<F>) -> Sym<F> {
     let mut t = symmetric_product(c_plastic, stress);
     let mean = (t[0] + t[1] + t[2]) * (1.0 / 3.0);
     for diagonal in &mut t[..3] {

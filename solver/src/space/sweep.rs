@@ -2,14 +2,18 @@
 
 use super::columns::{DerivedSlices, StateSlices, SumsSlices, Work};
 use super::dispatch::{Instructions, Kernel};
-use super::lanes::{F8, LANES, M8};
+use super::lanes::{LANES, Lanes, Mask};
 use super::mesh::{Body, Mesh, Piece};
+use super::simulation::CROSSING;
 
 /// Lowest density over the reference density.
 const THINNEST: f64 = 0.3;
 
 /// Largest relative change of the density in a step, under pressure.
 const DENSEST_STEP: f64 = 0.08;
+
+/// Smallest volume of a particle's elements over its reference volume.
+const SMALLEST: f64 = 0.1;
 
 /// Rate at which a free fragment loses its compression, in sound crossings of its contact length.
 const RELAXATION: f64 = 0.07;
@@ -56,6 +60,8 @@ pub struct Respond<'a> {
     pub touched: &'a [bool],
     /// Instructions.
     pub instructions: Instructions,
+    /// Whether elements carry the pressure, and ask for the time step that it needs.
+    pub volumes: bool,
     /// Length of the last kick.
     pub kick: f64,
     /// Length of the last drift.
@@ -86,6 +92,7 @@ impl<'c> Work<Columns<'c>> for Respond<'_> {
             ratio: &self.mesh.ratio[range.clone()],
             touched: &self.touched[range],
             columns: (state, derived, sums),
+            volumes: self.volumes,
             kick: self.kick,
             dt: self.dt,
         };
@@ -104,6 +111,7 @@ struct RespondPiece<'a> {
     ratio: &'a [f64],
     touched: &'a [bool],
     columns: Columns<'a>,
+    volumes: bool,
     kick: f64,
     dt: f64,
 }
@@ -112,10 +120,10 @@ impl Kernel for RespondPiece<'_> {
     type Output = Allowed;
 
     #[inline(always)]
-    fn run(mut self) -> Allowed {
+    fn run<F: Lanes>(mut self) -> Allowed {
         let mut allowed = Allowed::ANYTHING;
         for at in (0..self.piece.range.len()).step_by(LANES) {
-            let lane = self.eight(at);
+            let lane = self.eight::<F>(at);
             allowed = allowed.and(lane);
         }
         allowed
@@ -124,32 +132,32 @@ impl Kernel for RespondPiece<'_> {
 
 impl RespondPiece<'_> {
     #[inline(always)]
-    fn eight(&mut self, at: usize) -> Allowed {
+    fn eight<F: Lanes>(&mut self, at: usize) -> Allowed {
         let (state, derived, sums) = &mut self.columns;
         let (kick, dt) = (self.kick, self.dt);
-        let mass = F8::load(self.mass, at);
-        let ratio = F8::load(self.ratio, at);
-        let zero = F8::ZERO;
+        let mass = F::load(self.mass, at);
+        let ratio = F::load(self.ratio, at);
+        let zero = F::zero();
 
         // End of the last step: Eqs. (36), (58) and (76).
-        let volume_rate = F8::load(sums.volume_rate, at);
-        let mut rho_rate = F8::load(sums.rho_rate, at) - F8::load(derived.dilate, at) * volume_rate;
-        let alone = ratio.lt(F8::splat(1e-9)).bits();
+        let volume_rate = F::load(sums.volume_rate, at);
+        let mut rho_rate = F::load(sums.rho_rate, at) - F::load(derived.dilate, at) * volume_rate;
+        let alone = ratio.lt(F::splat(1e-9));
         if alone != 0 {
             let free = free_lanes(self.body, (&self.touched[at..], alone), derived, at);
-            rho_rate = F8::select(free, free_rate(self.body, derived, at), rho_rate);
+            rho_rate = F::select(free, free_rate(self.body, derived, at), rho_rate);
         }
-        let work = F8::load(sums.heat, at) - kick * (F8::load(derived.grip, at) * volume_rate);
+        let work = F::load(sums.heat, at) - F::load(derived.grip, at) * volume_rate * kick;
         let gain = work / mass;
-        let rho = F8::load(state.rho, at) + kick * rho_rate;
-        let rho = rho.max(F8::splat(THINNEST * self.body.rho_0));
-        let u = F8::load(state.u, at) + gain;
+        let rho = F::load(state.rho, at) + rho_rate * kick;
+        let rho = rho.max(F::splat(THINNEST * self.body.rho_0));
+        let u = F::load(state.u, at) + gain;
         let u_rate = if kick > 0.0 { gain * (1.0 / kick) } else { zero };
         rho.store(state.rho, at);
         u.store(state.u, at);
         rho_rate.store(state.rho_rate, at);
         u_rate.store(state.u_rate, at);
-        let volume = F8::load(sums.volume, at) + dt * volume_rate;
+        let volume = F::load(sums.volume, at) + volume_rate * dt;
         volume.store(state.volume, at);
         let mut finite = u + rho;
         for (x, v) in [
@@ -157,7 +165,7 @@ impl RespondPiece<'_> {
             (&mut *state.dy, &*state.vy),
             (&mut *state.dz, &*state.vz),
         ] {
-            let moved = F8::load(x, at) + dt * F8::load(v, at);
+            let moved = F::load(x, at) + F::load(v, at) * dt;
             moved.store(x, at);
             finite += moved;
         }
@@ -174,11 +182,12 @@ impl RespondPiece<'_> {
         }
 
         // State at the time of the positions: Eq. (22).
-        let rho = (rho + (0.5 * dt) * rho_rate).max(F8::splat(THINNEST * self.body.rho_0));
-        let response = self.body.eos.respond(rho, u + (0.5 * dt) * u_rate);
-        let whole = mass * (1.0 / self.body.rho_0) + ratio * volume;
+        let rho = (rho + rho_rate * (0.5 * dt)).max(F::splat(THINNEST * self.body.rho_0));
+        let response = self.body.eos.respond(rho, u + u_rate * (0.5 * dt));
+        let reference = mass * (1.0 / self.body.rho_0);
+        let whole = (reference + ratio * volume).max(reference * SMALLEST);
         let some = ratio.gt(zero);
-        let dilate = F8::select(some, rho / whole, zero);
+        let dilate = F::select(some, rho / whole, zero);
         let per_density = response.pressure * mass / (rho * rho);
         let sound = response.sound_squared.sqrt();
         rho.store(derived.rho, at);
@@ -189,18 +198,34 @@ impl RespondPiece<'_> {
         sound.store(derived.sound, at);
 
         // What it allows.
-        let spacing = (F8::splat(self.body.rho_0) / rho).min(F8::splat(1.0));
-        let crossing = spacing / sound.max(F8::splat(1e-300));
-        let change = rho / rho_rate.map(f64::abs).max(F8::splat(1e-300));
+        let spacing = (F::splat(self.body.rho_0) / rho).min(F::splat(1.0));
+        let crossing = spacing / sound.max(F::splat(1e-300));
+        let loose = if self.volumes {
+            !(ratio.gt(F::splat(0.999)) & ratio.lt(F::splat(1.001))) | mask(&self.touched[at..])
+        } else {
+            Mask::MAX
+        };
+        let crossing = F::select(loose, crossing, F::splat(f64::INFINITY));
+        let change = rho / rho_rate.abs().max(F::splat(1e-300));
         let pressed = response.pressure.gt(zero);
-        let change = F8::select(pressed, change, F8::splat(f64::INFINITY));
+        let change = F::select(pressed, change, F::splat(f64::INFINITY));
         Allowed {
-            sound: self.body.edge() * crossing.least(),
+            sound: CROSSING * self.body.edge() * crossing.least(),
             density: DENSEST_STEP * change.least(),
             piece: 0,
-            sane: finite.0.iter().all(|x| x.is_finite()),
+            sane: (finite - finite).abs().sum() == 0.0,
         }
     }
+}
+
+/// Lanes that are true.
+#[inline(always)]
+fn mask(lanes: &[bool]) -> Mask {
+    let mut bits = 0;
+    for (k, &lane) in lanes[..LANES].iter().enumerate() {
+        bits |= u8::from(lane) << k;
+    }
+    bits
 }
 
 /// Lanes without elements, contacts and wall that are under pressure.
@@ -210,21 +235,22 @@ fn free_lanes(
     (touched, alone): (&[bool], u8),
     derived: &DerivedSlices<'_>,
     at: usize,
-) -> M8 {
-    let mut out = [false; LANES];
-    for k in 0..LANES {
+) -> Mask {
+    let mut bits = 0;
+    for (k, &touched) in touched[..LANES].iter().enumerate() {
         let dense = derived.rho[at + k] > RELAXED * body.rho_0;
         let pressed = derived.pressure[at + k] > 0.0;
-        out[k] = alone >> k & 1 == 1 && !touched[k] && pressed && dense;
+        let free = alone >> k & 1 == 1 && !touched && pressed && dense;
+        bits |= u8::from(free) << k;
     }
-    M8(out)
+    bits
 }
 
 /// Rate of a fragment that nothing holds together.
 #[inline(always)]
-fn free_rate(body: &Body, derived: &DerivedSlices<'_>, at: usize) -> F8 {
-    let crossing = F8::load(derived.sound, at) * (1.0 / body.length);
-    -(RELAXATION * crossing * F8::load(derived.rho, at))
+fn free_rate<F: Lanes>(body: &Body, derived: &DerivedSlices<'_>, at: usize) -> F {
+    let crossing = F::load(derived.sound, at) * (1.0 / body.length);
+    -(crossing * F::load(derived.rho, at) * RELAXATION)
 }
 
 /// New velocities, Eq. (74), and the mean velocities of the step.
@@ -274,18 +300,18 @@ impl Kernel for KickPiece<'_> {
     type Output = ();
 
     #[inline(always)]
-    fn run(self) {
+    fn run<F: Lanes>(self) {
         let (state, derived, sums) = self.columns;
         let half = 0.5 * self.kick;
         for at in (0..self.len).step_by(LANES) {
-            let per_mass = half / F8::load(self.mass, at);
+            let per_mass = F::splat(half) / F::load(self.mass, at);
             for (v, mean, force) in [
                 (&mut *state.vx, &mut *derived.mx, &*sums.fx),
                 (&mut *state.vy, &mut *derived.my, &*sums.fy),
                 (&mut *state.vz, &mut *derived.mz, &*sums.fz),
             ] {
-                let gain = per_mass * F8::load(force, at);
-                let middle = F8::load(v, at) + gain;
+                let gain = per_mass * F::load(force, at);
+                let middle = F::load(v, at) + gain;
                 middle.store(mean, at);
                 (middle + gain).store(v, at);
             }

@@ -1,100 +1,198 @@
-//! Pairs of particles in reach of each other.
+//! Neighbour search: pairs of members that may come into contact, kept until they are stale.
+//!
+//! A pair is listed if at least one of the two is exposed, their distance is less than their reach,
+//! `factor * max(length) + skin`, and the caller keeps it. The list serves until two members that
+//! are not on it may be closer than `factor * max(length)`.
+//!
+//! Invariant: chunks, their order and the order of the list do not depend on the number of threads.
 
-use std::collections::HashMap;
+mod grid;
+mod join;
+mod motion;
+mod search;
+mod sort;
+#[cfg(test)]
+mod tests;
+mod trace;
+mod windows;
 
-/// Members.
+use rayon::prelude::*;
+
+use grid::{Grid, SLACK};
+use join::Joiner;
+use motion::{Free, Motion};
+use search::{CHUNK, Slot};
+
+/// Flag of a member that can be in contact with any other.
+pub const EXPOSED: u8 = 1;
+
+/// Flag of a member without live elements, for which the lattice says nothing.
+pub const DEBRIS: u8 = 2;
+
+/// Members, column by column, all of the same length.
 #[derive(Debug, Clone, Copy)]
 pub struct Points<'a> {
-    /// Positions.
+    /// Positions along x.
     pub x: &'a [f64],
-    /// Positions, second component.
+    /// Positions along y.
     pub y: &'a [f64],
-    /// Positions, third component.
+    /// Positions along z.
     pub z: &'a [f64],
     /// Contact lengths.
     pub length: &'a [f32],
-    /// Whether a pair may be of this member and any other.
-    pub exposed: &'a [bool],
-    /// Bodies.
+    /// [`EXPOSED`] and [`DEBRIS`].
+    pub flags: &'a [u8],
+    /// Bodies that the members belong to.
     pub body: &'a [u16],
+    /// Places in the lattices of the bodies. If given, a pair may be left out if both belong
+    /// to the same body, neither is debris, and they are at most 12 apart along each lattice axis:
+    /// the caller promises to have no use for such pairs.
+    pub lattice: Option<&'a [[i16; 3]]>,
 }
 
-/// How far a list reaches.
-#[derive(Debug, Clone, Copy, Default)]
+/// How far to look for pairs.
+#[derive(Debug, Clone, Copy)]
 pub struct Reach {
-    /// Reach of a contact over the larger contact length.
+    /// Distance of contact, in contact lengths.
     pub factor: f64,
-    /// Margin.
+    /// By how much the list reaches further than contact.
     pub skin: f64,
 }
 
-/// A half list of pairs.
+/// What the search has done so far.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Counters {
+    /// Lists made.
+    pub rebuilds: u64,
+    /// Distances compared.
+    pub tests: u64,
+    /// Pairs listed, inserted ones included.
+    pub pairs: u64,
+}
+
+/// List of pairs, with the memory that it takes to make it.
+///
+/// Buffers are kept: a rebuild allocates only if there is more to hold than ever before.
 #[derive(Debug, Clone, Default)]
 pub struct PairList {
+    grid: Grid,
+    motion: Motion,
+    slots: Vec<Slot>,
+    joiner: Joiner,
     pairs: Vec<[u32; 2]>,
-    at: Vec<[f64; 3]>,
-    skin: f64,
+    counters: Counters,
+    /// Members that the list was made for.
+    members: Option<usize>,
+}
+
+impl Points<'_> {
+    #[inline(always)]
+    fn is_exposed(&self, i: u32) -> bool {
+        self.flags[i as usize] & EXPOSED != 0
+    }
+
+    fn has_columns_of(&self, n: usize) -> bool {
+        let lattice = self.lattice.is_none_or(|lattice| lattice.len() == n);
+        let flags = self.length.len() == n && self.flags.len() == n && self.body.len() == n;
+        lattice && flags && self.y.len() == n && self.z.len() == n
+    }
 }
 
 impl PairList {
-    /// The pairs.
+    /// A list of nothing, which is stale.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Makes the list anew. `keep(i, j)`, with `i < j`, is asked about each pair within reach.
+    ///
+    /// Pairs are found with a reach enlarged by about 2e-5 of the longest, because of rounding.
+    ///
+    /// # Panics
+    /// If columns differ in length.
+    pub fn rebuild(
+        &mut self,
+        points: &Points<'_>,
+        reach: Reach,
+        keep: impl Fn(u32, u32) -> bool + Sync,
+    ) {
+        let n = points.x.len();
+        assert!(points.has_columns_of(n), "columns of members differ in length");
+        self.members = Some(n);
+        self.counters.rebuilds += 1;
+        let longest = points.length.iter().fold(0.0_f32, |a, &b| if b > a { b } else { a });
+        let contact = reach.factor * f64::from(longest);
+        let skin = reach.skin.max(0.0);
+        let far = contact + skin;
+        if far > 0.0 {
+            self.grid.build(points, far, Reach { skin, ..reach });
+        } else {
+            self.grid.clear();
+        }
+        let chunks = self.grid.keys.len().div_ceil(CHUNK);
+        self.motion.limit(Free { skin, contact: contact + SLACK * far });
+        self.search(chunks, &keep);
+        let found = self.slots[..chunks].iter();
+        self.joiner.join(found.map(|slot| &slot.pairs[..]), n, &mut self.pairs);
+        self.counters.tests += self.slots[..chunks].iter().map(|slot| slot.tests).sum::<u64>();
+        self.counters.pairs += self.pairs.len() as u64;
+    }
+
+    fn search(&mut self, chunks: usize, keep: &(impl Fn(u32, u32) -> bool + Sync)) {
+        if self.slots.len() < chunks {
+            self.slots.resize_with(chunks + chunks / 4, Slot::default);
+        }
+        let Self { grid, motion, slots, .. } = self;
+        let slots = slots[..chunks].par_iter_mut().enumerate();
+        rayon::join(
+            || slots.for_each(|(c, slot)| slot.search(grid, c, keep)),
+            || motion.start(grid),
+        );
+        // What one chunk needed, another may need next time.
+        let most =
+            self.slots.iter().map(Slot::used).fold([0; 2], |a, b| [a[0].max(b[0]), a[1].max(b[1])]);
+        for slot in &mut self.slots {
+            slot.reserve(most);
+        }
+    }
+
+    /// The pairs `[i, j]` with `i < j`, sorted by `i` and then by `j`.
     #[must_use]
     pub fn pairs(&self) -> &[[u32; 2]] {
         &self.pairs
     }
 
+    /// Adds pairs found otherwise, which must have `i < j`, at their places in the order; those
+    /// that are listed already are left out. `batch` is left sorted, with the pairs that were new.
+    ///
+    /// The list is merged from the back once, whatever the size of the batch.
+    pub fn insert(&mut self, batch: &mut Vec<[u32; 2]>) {
+        self.counters.pairs += join::merge(&mut self.pairs, batch) as u64;
+    }
+
+    /// Whether two members not listed may be closer than `factor * max(length)`: never `false` if
+    /// they are. Always `true` before the first rebuild and if the number of members has changed.
+    pub fn is_stale(&mut self, points: &Points<'_>) -> bool {
+        self.members != Some(points.x.len()) || self.motion.is_large(points)
+    }
+
     /// Bytes that it takes.
     #[must_use]
     pub fn bytes(&self) -> usize {
-        self.pairs.capacity() * 8 + self.at.capacity() * 24
+        let slots: usize = self.slots.iter().map(Slot::bytes).sum();
+        let lists = held(&self.pairs) + self.joiner.bytes();
+        self.grid.bytes() + self.motion.bytes() + slots + lists
     }
 
-    /// Whether a pair may have come in reach that is not listed.
+    /// What the search has done so far.
     #[must_use]
-    pub fn is_stale(&self, points: &Points<'_>) -> bool {
-        let mut mean = [0.0; 3];
-        for (i, at) in self.at.iter().enumerate() {
-            let d = [points.x[i] - at[0], points.y[i] - at[1], points.z[i] - at[2]];
-            for k in 0..3 {
-                mean[k] += d[k] / self.at.len() as f64;
-            }
-        }
-        self.at.iter().enumerate().any(|(i, at)| {
-            let d = [points.x[i] - at[0], points.y[i] - at[1], points.z[i] - at[2]];
-            (0..3).map(|k| (d[k] - mean[k]).powi(2)).sum::<f64>() > 0.25 * self.skin * self.skin
-        })
+    pub fn counters(&self) -> Counters {
+        self.counters
     }
+}
 
-    /// Finds all pairs anew.
-    pub fn rebuild(&mut self, p: &Points<'_>, reach: Reach, keep: impl Fn(u32, u32) -> bool) {
-        let longest = f64::from(p.length.iter().copied().fold(0.0, f32::max));
-        let r = reach.factor * longest + reach.skin;
-        let cell = |i: usize| [p.x[i], p.y[i], p.z[i]].map(|x| (x / r).floor() as i64);
-        let mut cells: HashMap<[i64; 3], Vec<u32>> = HashMap::new();
-        for i in 0..p.x.len() {
-            cells.entry(cell(i)).or_default().push(i as u32);
-        }
-        self.pairs.clear();
-        for i in 0..p.x.len() {
-            let c = cell(i);
-            let start = self.pairs.len();
-            for n in 0..27 {
-                let o = [n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1];
-                let Some(others) = cells.get(&[c[0] + o[0], c[1] + o[1], c[2] + o[2]]) else {
-                    continue;
-                };
-                for &j in others.iter().filter(|&&j| j as usize > i) {
-                    let k = j as usize;
-                    let d = [p.x[i] - p.x[k], p.y[i] - p.y[k], p.z[i] - p.z[k]];
-                    let near = d.iter().map(|d| d * d).sum::<f64>() < r * r;
-                    if near && (p.exposed[i] || p.exposed[k]) && keep(i as u32, j) {
-                        self.pairs.push([i as u32, j]);
-                    }
-                }
-            }
-            self.pairs[start..].sort_unstable();
-        }
-        self.at = (0..p.x.len()).map(|i| [p.x[i], p.y[i], p.z[i]]).collect();
-        self.skin = reach.skin;
-    }
+/// Bytes that a buffer holds.
+fn held<T>(buffer: &Vec<T>) -> usize {
+    buffer.capacity() * std::mem::size_of::<T>()
 }
