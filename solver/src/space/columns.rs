@@ -2,18 +2,52 @@
 //!
 //! Invariant: pieces are the same whatever the number of threads, so the same bits come out.
 
-use std::ops::Range;
+use std::ops::{Deref, DerefMut, Range};
 
 /// Particles of a piece of a particle loop.
 pub const PIECE: usize = 512;
 
+/// Numbers by which a column begins later than the one before in its memory page. Columns of a page's
+/// multiple of bytes would all meet in the same few lines of the cache.
+const STAGGER: usize = 16;
+
+/// One number a particle.
+#[derive(Debug, Clone, Default)]
+pub struct Column {
+    memory: Vec<f64>,
+    skip: usize,
+}
+
+impl Column {
+    fn zeros(n: usize, turn: usize) -> Self {
+        let skip = STAGGER * turn;
+        Self { memory: vec![0.0; n + skip], skip }
+    }
+}
+
+impl Deref for Column {
+    type Target = [f64];
+
+    #[inline(always)]
+    fn deref(&self) -> &[f64] {
+        &self.memory[self.skip..]
+    }
+}
+
+impl DerefMut for Column {
+    #[inline(always)]
+    fn deref_mut(&mut self) -> &mut [f64] {
+        &mut self.memory[self.skip..]
+    }
+}
+
 /// Declares a set of columns, and the same set as mutable slices that can be split.
 macro_rules! columns {
-    ($(#[$doc:meta])* $name:ident, $slices:ident { $($(#[$fdoc:meta])* $field:ident),* $(,)? }) => {
+    ($(#[$doc:meta])* $name:ident, $slices:ident, $first:literal { $($(#[$fdoc:meta])* $field:ident),* $(,)? }) => {
         $(#[$doc])*
         #[derive(Debug, Clone, Default)]
         pub struct $name {
-            $($(#[$fdoc])* pub $field: Vec<f64>,)*
+            $($(#[$fdoc])* pub $field: Column,)*
         }
 
         #[doc = concat!("[`", stringify!($name), "`] as slices, of all particles or of some.")]
@@ -26,7 +60,13 @@ macro_rules! columns {
             /// Columns of `n` zeros.
             #[must_use]
             pub fn zeros(n: usize) -> Self {
-                Self { $($field: vec![0.0; n],)* }
+                let mut turn = $first;
+                $(
+                    let $field = Column::zeros(n, turn);
+                    turn += 1;
+                )*
+                let _ = turn;
+                Self { $($field,)* }
             }
 
             /// All of them.
@@ -35,19 +75,19 @@ macro_rules! columns {
             }
 
             /// Names and contents.
-            pub fn named(&self) -> impl Iterator<Item = (&'static str, &Vec<f64>)> {
+            pub fn named(&self) -> impl Iterator<Item = (&'static str, &Column)> {
                 [$((stringify!($field), &self.$field)),*].into_iter()
             }
 
             /// Names and contents, to be filled.
-            pub fn named_mut(&mut self) -> impl Iterator<Item = (&'static str, &mut Vec<f64>)> {
+            pub fn named_mut(&mut self) -> impl Iterator<Item = (&'static str, &mut Column)> {
                 [$((stringify!($field), &mut self.$field)),*].into_iter()
             }
 
             /// Bytes that they take.
             #[must_use]
             pub fn bytes(&self) -> usize {
-                self.named().map(|(_, column)| 8 * column.capacity()).sum()
+                self.named().map(|(_, column)| 8 * column.memory.capacity()).sum()
             }
         }
 
@@ -69,7 +109,7 @@ macro_rules! columns {
 
 columns! {
     /// What a particle is and how it moves: the state that a run continues from.
-    State, StateSlices {
+    State, StateSlices, 0 {
         /// Displacement relative to the translation of the body.
         dx,
         /// Displacement, second component.
@@ -97,7 +137,7 @@ columns! {
 
 columns! {
     /// What follows from the state within a step.
-    Derived, DerivedSlices {
+    Derived, DerivedSlices, 11 {
         /// Pressure `P`.
         pressure,
         /// Pressure on the volumes of elements: `P m / (rho V)`.
@@ -121,7 +161,7 @@ columns! {
 
 columns! {
     /// Sums over elements and contacts.
-    Sums, SumsSlices {
+    Sums, SumsSlices, 20 {
         /// Force.
         fx,
         /// Force, second component.

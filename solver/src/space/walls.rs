@@ -60,7 +60,7 @@ impl Wall {
     ) {
         let axis = self.axis;
         for (i, body, x) in contacts.along(axis) {
-            let v = &velocity(state)[axis];
+            let v = velocity(state)[axis];
             let whole = mesh.bodies[body].velocity[axis];
             let gap = self.side * (x - self.position);
             let speed = self.side * (v[i] + whole);
@@ -116,6 +116,6 @@ impl Wall {
     }
 }
 
-fn velocity(state: &State) -> [&Vec<f64>; 3] {
+fn velocity(state: &State) -> [&[f64]; 3] {
     [&state.vx, &state.vy, &state.vz]
 }
