@@ -7,6 +7,8 @@
 
 use rayon::prelude::*;
 
+use crate::method::Viscosity;
+
 use super::columns::{Derived, State, Sums};
 use super::lattice::NONE;
 use super::mesh::Mesh;
@@ -322,16 +324,40 @@ impl View<'_> {
             ];
             let approach = -(r[0] * v[0] + r[1] * v[1] + r[2] * v[2]) / distance;
             if approach > 0.0 {
-                let sound = self.derived.sound[i] + self.derived.sound[j];
-                let steep = 1.0 + 2.0 * self.method.visc_quad * approach / sound.max(1e-300);
-                let nu = 0.5 * self.method.visc_linear * (impedance[0] + impedance[1]) * steep;
-                active.drag = nu * approach / distance;
+                let slope = 0.5 * (body[0].slope + body[1].slope);
+                active.drag =
+                    self.viscosity(pair, approach, (impedance, slope)) * approach / distance;
             }
             let [a, b] = [0, 1].map(|k| impedance[k] * body[k].eos.c_v());
-            let transfer = 0.5 * self.method.heat_coeff * (a + b);
+            // The flux of the limited viscosity acts in shocks alone.
+            let coefficient = match self.method.viscosity {
+                Viscosity::Pairwise => self.method.heat_coeff,
+                Viscosity::Limited => 0.0,
+            };
+            let transfer = 0.5 * coefficient * (a + b);
             active.flux = transfer * (self.derived.theta[i] - self.derived.theta[j]);
         }
         Some(active)
+    }
+
+    /// Coefficient of the viscous force, Eq. (53), or that of the limited viscosity: a contact has no
+    /// neighbours that could explain its jump.
+    fn viscosity(&self, pair: [u32; 2], approach: f64, (impedance, slope): ([f64; 2], f64)) -> f64 {
+        let method = self.method;
+        let [i, j] = pair.map(|k| k as usize);
+        let sound = self.derived.sound[i] + self.derived.sound[j];
+        let both = 0.5 * (impedance[0] + impedance[1]);
+        match method.viscosity {
+            Viscosity::Pairwise => {
+                let steep = 1.0 + 2.0 * method.visc_quad * approach / sound.max(1e-300);
+                both * method.visc_linear * steep
+            }
+            Viscosity::Limited => {
+                let sound = (0.5 * sound).max(1e-300);
+                let steep = method.visc_quad * slope * approach / sound;
+                both * (steep + (steep * steep + method.visc_linear * method.visc_linear).sqrt())
+            }
+        }
     }
 
     /// `3/8 W / (zeta^5 L^2)`, Eqs. (35)-(36), at a distance from a particle of contact length `L`.

@@ -25,6 +25,10 @@ const TORN: f64 = 4.0;
 /// Smallest pyramid, over its reference volume, of an element that counts as a volume.
 const CRUSHED: f64 = 0.2;
 
+/// Thickness, over the shortest edge at the start, below which a failed element ceases to count as a
+/// volume.
+const FLAT: f64 = 0.35;
+
 /// Expansion at which a failed element ceases to count as a volume.
 const OPEN: f64 = 1.2;
 
@@ -200,22 +204,27 @@ fn shares<F: Lanes>(pyramids: &[F; 6], balance: f64) -> [F; 9] {
     share
 }
 
-/// Square of twice the rate at which sound crosses the lowest pyramid, twice its height.
+/// Volume of a cell, and the square of twice its largest face.
 #[inline(always)]
-fn crossing_squared<F: Lanes>(pyramids: &[Pyramid<F>; 6], body: &Body, sound: &[F; 9]) -> F {
-    let mut steepest = F::zero();
-    for (k, pyramid) in pyramids.iter().enumerate() {
-        let volume = pyramid.growth + body.pyramids[k];
-        let thin = dot(&pyramid.area, &pyramid.area) / (volume * volume);
-        steepest = steepest.max(thin);
+fn extent<F: Lanes>(pyramids: &[Pyramid<F>; 6], body: &Body) -> (F, F) {
+    let mut face = F::zero();
+    let mut volume = F::splat(body.cell_volume);
+    for pyramid in pyramids {
+        face = face.max(dot(&pyramid.area, &pyramid.area));
+        volume += pyramid.growth;
     }
+    (volume, face)
+}
+
+/// Square of four times the rate at which sound crosses the cell where it is thinnest: the volume over
+/// the largest face. That is the highest frequency of planes of nodes and centroids.
+#[inline(always)]
+fn crossing_squared<F: Lanes>((volume, face): (F, F), body: &Body, sound: &[F; 9]) -> F {
     let mut fastest = sound[CENTRE];
     for sound in &sound[..8] {
         fastest = fastest.max(*sound);
     }
-    // Twice over 6 V / |s|, with shear in the wave speed.
-    let factor = body.stiffening() / 9.0;
-    steepest * fastest * fastest * factor
+    face * fastest * fastest * (4.0 * body.stiffening()) / (volume * volume)
 }
 
 /// Volumes of the pyramids of a cell with these corners about its centre.
@@ -269,7 +278,44 @@ impl<F: Lanes> Seen<'_, F> {
     }
 }
 
+impl Sink<'_> {
+    /// Asks for the sums that a group will add to.
+    #[inline(always)]
+    pub fn fetch<F: Lanes>(&self, group: &Group) {
+        let (nodes, centres) = (&self.nodes, &self.centres);
+        for column in [&*nodes.fx, &*nodes.fy, &*nodes.fz, &*nodes.volume, &*nodes.heat] {
+            for row in group.rows {
+                F::fetch(&column[row as usize - self.first_node..]);
+            }
+        }
+        for column in [&*centres.fx, &*centres.fy, &*centres.fz, &*centres.volume, &*centres.heat] {
+            F::fetch(&column[group.centre as usize - self.first_centre..]);
+        }
+    }
+}
+
 impl Group {
+    /// Asks for the group itself.
+    #[inline(always)]
+    pub fn fetch<F: Lanes>(&self) {
+        let lines = std::slice::from_ref(self);
+        F::fetch(lines);
+        for eight in [&self.plastic[..], &self.stress, &self.piola, &self.tension, &self.bonds] {
+            for line in 0..eight.len() {
+                F::fetch(&eight[line..]);
+            }
+        }
+    }
+
+    /// Asks for a column at the nine slots.
+    #[inline(always)]
+    pub fn fetch_column<F: Lanes>(&self, column: &[f64]) {
+        for row in self.rows {
+            F::fetch(&column[row as usize + 4..]);
+        }
+        F::fetch(&column[self.centre as usize + 4..]);
+    }
+
     /// A column at the nine slots.
     #[inline(always)]
     fn gather<F: Lanes>(&self, column: &[f64]) -> [F; 9] {
@@ -372,7 +418,8 @@ impl Group {
             + ((theta[4] + theta[5]) + (theta[6] + theta[7]));
         let mean = theta[CENTRE] * 0.5 + corners * 0.0625;
 
-        self.fail(body, &motion, &opening, mean);
+        let (volume, face) = extent(&pyramids, body);
+        self.fail(body, &motion, (&opening, volume, face), mean);
         let mut freed = self.damage(body, &opening, laws.dt);
         let intact = F::splat(1.0) - F::of(self.damage);
         let mut rate_squared = F::zero();
@@ -403,7 +450,7 @@ impl Group {
             if laws.method.visc_volume > 0.0 {
                 self.stiffen(&pyramids, &opening, (&v, body, laws), &mut push);
             }
-            rate_squared = rate_squared.max(crossing_squared(&pyramids, body, &sound));
+            rate_squared = rate_squared.max(crossing_squared((volume, face), body, &sound));
             let seen = Seen { y: &y, v: &v, sound: &sound, theta: &theta };
             damping = match laws.method.viscosity {
                 Viscosity::Limited => self.limited(&seen, (body, laws, read), &mut loads),
@@ -473,7 +520,13 @@ impl Group {
 
     /// Marks lanes that fail, and those that cease to be volumes after this step.
     #[inline(always)]
-    fn fail<F: Lanes>(&mut self, body: &Body, motion: &Kinematics<F>, opening: &[F; 6], theta: F) {
+    fn fail<F: Lanes>(
+        &mut self,
+        body: &Body,
+        motion: &Kinematics<F>,
+        (opening, volume, face): (&[F; 6], F, F),
+        theta: F,
+    ) {
         let solid = &body.solid;
         let mut smallest = opening[0];
         let mut widest = opening[0];
@@ -489,7 +542,9 @@ impl Group {
         self.failed |= failing & self.live;
         let stretched = motion.stretch_squared().gt(F::splat(TORN * TORN));
         let open = motion.jacobian.gt(F::splat(OPEN)) & self.failed;
-        self.dying = (crushed | stretched | open) & self.live;
+        let thinnest = 0.5 * FLAT * solid.edge;
+        let flat = (volume * volume).lt(face * (thinnest * thinnest)) & self.failed;
+        self.dying = (crushed | stretched | open | flat) & self.live;
         self.failed |= self.dying;
     }
 
@@ -619,10 +674,13 @@ impl Group {
                 F::load(read.velocity[2], at),
             ];
             let beyond = dot(&r, &sub(&seen.v[slot], &next)).keep(self.has_beyond[slot]);
-            let alike = (before * own).gt(zero) & (beyond * own).gt(zero);
+            let (behind, ahead) = (before * own, beyond * own);
             let mean = before * beyond * method.limiter / ((before + beyond) * own);
-            let explained = mean.min(F::splat(1.0)).keep(alike);
-            let jump = (own * (F::splat(1.0) - explained)).keep(self.live);
+            let explained = mean.min(F::splat(1.0)).keep(behind.gt(zero) & ahead.gt(zero));
+            // What recedes is damped only if both neighbours close: it rings, and does not flow.
+            let rings = behind.lt(zero) & ahead.lt(zero);
+            let alive = self.live & (own.gt(zero) | rings);
+            let jump = (own * (F::splat(1.0) - explained)).keep(alive);
             let speed = jump * inverse.sqrt();
             let closing = speed.gt(zero);
             let sound = (seen.sound[slot] + seen.sound[CENTRE]) * 0.5;

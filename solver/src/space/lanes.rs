@@ -76,6 +76,10 @@ pub trait Lanes:
         to[at..at + LANES].copy_from_slice(&self.pack().0);
     }
 
+    /// Asks for memory that will be needed soon: whatever stands at the start of a slice.
+    #[inline(always)]
+    fn fetch<T>(_: &[T]) {}
+
     /// Where a lane is above the other's.
     #[inline(always)]
     #[must_use]

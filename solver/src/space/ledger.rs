@@ -186,6 +186,17 @@ impl Simulation {
         std::array::from_fn(|d| start[d] + (body.way[d] + own[d]))
     }
 
+    /// The particles, in order: nodes of all bodies, then centroids.
+    pub fn real(&self) -> impl Iterator<Item = usize> + '_ {
+        self.mesh.real()
+    }
+
+    /// Pressure of a particle.
+    #[must_use]
+    pub fn pressure(&self, i: usize) -> f64 {
+        self.derived.pressure[i]
+    }
+
     /// Displacement of a particle relative to the translation of its body.
     #[must_use]
     pub fn displacement(&self, i: usize) -> [f64; 3] {

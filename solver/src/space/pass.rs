@@ -8,6 +8,9 @@ use super::element::{Demand, Laws, Read, Sink};
 use super::lanes::Lanes;
 use super::mesh::{Chunk, Group, Mesh};
 
+/// Groups between the one that is worked on and the one that is asked for.
+const AHEAD: usize = 1;
+
 /// A pass over elements.
 pub trait Pass: Sync {
     /// Result of a chunk.
@@ -16,6 +19,8 @@ pub trait Pass: Sync {
     const NONE: Self::Output;
     /// What is done with a group.
     fn group<F: Lanes>(&self, group: &mut Group, mesh: &Mesh, sink: &mut Sink<'_>) -> Self::Output;
+    /// Asks for what a group will read.
+    fn fetch<F: Lanes>(&self, group: &Group);
     /// Joins two results.
     fn and(one: Self::Output, other: Self::Output) -> Self::Output;
 }
@@ -122,10 +127,17 @@ impl<P: Pass> Kernel for Whole<'_, '_, P> {
             first_centre: held.from[2],
         };
         let mut out = P::NONE;
-        for group in &mut held.groups[..chunk.groups.len()] {
+        let mut groups = &mut held.groups[..chunk.groups.len()];
+        while let Some((group, rest)) = groups.split_first_mut() {
+            if let Some(next) = rest.get(AHEAD).filter(|next| next.awake && next.live != 0) {
+                next.fetch::<F>();
+                coloured.pass.fetch::<F>(next);
+                sink.fetch::<F>(next);
+            }
             if group.awake && group.live != 0 {
                 out = P::and(out, coloured.pass.group::<F>(group, coloured.mesh, &mut sink));
             }
+            groups = rest;
         }
         out
     }
@@ -150,6 +162,15 @@ impl Pass for Load<'_> {
             group.load_particles::<F, true>(body, &self.laws, &self.read, sink)
         } else {
             group.load_particles::<F, false>(body, &self.laws, &self.read, sink)
+        }
+    }
+
+    #[inline(always)]
+    fn fetch<F: Lanes>(&self, group: &Group) {
+        let read = &self.read;
+        let vectors = read.displacement.into_iter().chain(read.velocity);
+        for column in vectors.chain([read.grip, read.theta, read.sound, read.rho]) {
+            group.fetch_column::<F>(column);
         }
     }
 
@@ -181,6 +202,13 @@ impl Pass for Labour<'_> {
             group.work::<F, true>(body, motion, &self.laws, sink)
         } else {
             group.work::<F, false>(body, motion, &self.laws, sink)
+        }
+    }
+
+    #[inline(always)]
+    fn fetch<F: Lanes>(&self, group: &Group) {
+        for column in self.displacement.into_iter().chain(self.mean) {
+            group.fetch_column::<F>(column);
         }
     }
 

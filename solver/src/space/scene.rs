@@ -216,6 +216,10 @@ pub struct Body {
     /// Initial internal energy per mass.
     #[serde(default)]
     pub energy: f64,
+    /// Largest random part of the initial velocity of a particle along each axis: a test of
+    /// stability. The same in every run.
+    #[serde(default)]
+    pub noise: f64,
 }
 
 /// A rotation about an axis.
@@ -437,6 +441,7 @@ impl Body {
         positive(&format!("{key}.turn.axis"), self.turn.axis.iter().map(|a| a * a).sum())?;
         finite(&format!("{key}.turn.degrees"), self.turn.degrees)?;
         not_negative(&format!("{key}.energy"), self.energy)?;
+        not_negative(&format!("{key}.noise"), self.noise)?;
         let size = super::lattice::cell_size(self);
         let longest = size.iter().copied().fold(0.0, f64::max);
         let shortest = size.iter().copied().fold(f64::INFINITY, f64::min);

@@ -77,10 +77,17 @@ impl Simulation {
             for i in body.nodes.clone().chain(body.centroids.clone()) {
                 state.rho[i] = body.rho_0;
                 state.u[i] = data.energy;
+                if data.noise > 0.0 {
+                    state.vx[i] = data.noise * scatter(3 * i as u64);
+                    state.vy[i] = data.noise * scatter(3 * i as u64 + 1);
+                    state.vz[i] = data.noise * scatter(3 * i as u64 + 2);
+                }
                 if data.spin != [0.0; 3] {
                     let x = body.lattice.position(mesh.place(i).1);
                     let v = cross(data.spin, std::array::from_fn(|d| x[d] - data.centre[d]));
-                    (state.vx[i], state.vy[i], state.vz[i]) = (v[0], v[1], v[2]);
+                    state.vx[i] += v[0];
+                    state.vy[i] += v[1];
+                    state.vz[i] += v[2];
                 }
             }
         }
@@ -381,6 +388,12 @@ impl Simulation {
         self.dt
     }
 
+    /// Longest steps that loose particles, the change of density and elements allow, before safety.
+    #[must_use]
+    pub fn allowed(&self) -> [f64; 3] {
+        [self.allowed.sound, self.allowed.density, 1.0 / self.demand.rate]
+    }
+
     /// Elements that have failed, and those of them that are no volume any more.
     #[must_use]
     pub fn failed(&self) -> (usize, usize) {
@@ -400,4 +413,12 @@ impl Simulation {
             + self.mesh.bytes()
             + self.touched.capacity()
     }
+}
+
+/// A number from -1 to 1 that looks random: the finaliser of `SplitMix64`.
+fn scatter(k: u64) -> f64 {
+    let mut z = (k + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    z = (z ^ z >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    z = (z ^ z >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
+    (z ^ z >> 31) as f64 / 2f64.powi(63) - 1.0
 }

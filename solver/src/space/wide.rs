@@ -3,8 +3,8 @@
 #![allow(unsafe_code)]
 
 use core::arch::x86_64::{
-    __m512d, _CMP_LT_OQ, _mm512_add_pd, _mm512_castpd_si512, _mm512_castsi512_pd,
-    _mm512_cmp_pd_mask, _mm512_div_pd, _mm512_loadu_pd, _mm512_mask_blend_pd,
+    __m512d, _CMP_LT_OQ, _MM_HINT_T0, _mm_prefetch, _mm512_add_pd, _mm512_castpd_si512,
+    _mm512_castsi512_pd, _mm512_cmp_pd_mask, _mm512_div_pd, _mm512_loadu_pd, _mm512_mask_blend_pd,
     _mm512_maskz_permutexvar_pd, _mm512_max_pd, _mm512_min_pd, _mm512_mul_epu32, _mm512_mul_pd,
     _mm512_set_epi64, _mm512_set1_epi64, _mm512_set1_pd, _mm512_slli_epi64, _mm512_sqrt_pd,
     _mm512_srli_epi64, _mm512_storeu_pd, _mm512_sub_epi64, _mm512_sub_pd,
@@ -95,6 +95,11 @@ impl Lanes for W8 {
     fn store(self, to: &mut [f64], at: usize) {
         let to = &mut to[at..at + LANES];
         unsafe { _mm512_storeu_pd(to.as_mut_ptr(), self.0) };
+    }
+
+    #[inline(always)]
+    fn fetch<T>(from: &[T]) {
+        unsafe { _mm_prefetch::<_MM_HINT_T0>(from.as_ptr().cast()) };
     }
 
     #[inline(always)]
