@@ -11,6 +11,7 @@ pub mod ledger;
 pub mod mesh;
 pub mod method;
 pub mod near;
+pub mod output;
 pub mod pass;
 pub mod scene;
 pub mod simulation;
