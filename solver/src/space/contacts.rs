@@ -10,6 +10,7 @@ use rayon::prelude::*;
 use crate::method::Viscosity;
 
 use super::columns::{Derived, State, Sums};
+use super::kernel::Kernel;
 use super::lattice::NONE;
 use super::mesh::Mesh;
 use super::method::Method;
@@ -41,6 +42,8 @@ pub struct Contacts {
     place: Vec<[i16; 3]>,
     list: PairList,
     blocks: Vec<Vec<Active>>,
+    kernel: Option<Kernel>,
+    terms: Vec<Vec<[f64; 2]>>,
     /// Whether the list must be renewed whatever has moved.
     changed: bool,
     longest: f64,
@@ -83,13 +86,15 @@ struct View<'a> {
     state: &'a State,
     derived: &'a Derived,
     method: &'a Method,
+    kernel: Option<&'a Kernel>,
 }
 
 impl Contacts {
     /// Chooses members: all particles, or those near surfaces.
     #[must_use]
-    pub fn new(mesh: &Mesh, everyone: bool) -> Self {
+    pub fn new(mesh: &Mesh, everyone: bool, kernel: Option<Kernel>) -> Self {
         let mut contacts = Self {
+            kernel,
             index: vec![NONE; mesh.len],
             longest: mesh.bodies.iter().map(|b| b.length).fold(0.0, f64::max),
             ..Self::default()
@@ -187,7 +192,7 @@ impl Contacts {
             return false;
         }
         self.changed = false;
-        let reach = Reach { factor: method.contact_reach, skin: SKIN * self.longest };
+        let reach = Reach { factor: method.reach(), skin: SKIN * self.longest };
         let (place, flags) = (&self.place, &self.flags);
         let keep = |a: u32, b: u32| {
             let (a, b) = (a as usize, b as usize);
@@ -203,6 +208,37 @@ impl Contacts {
         true
     }
 
+    /// The sweep that the paper's scheme removes: density from the positions, if by a kernel.
+    pub fn sum_density(&mut self, mesh: &Mesh, rho: &mut [f64]) -> u64 {
+        let Some(kernel) = &self.kernel else { return 0 };
+        let pairs = self.list.pairs();
+        self.terms.resize_with(pairs.len().div_ceil(BLOCK), Vec::new);
+        let (position, members, body) = (&self.position, &self.members, &self.body);
+        self.terms.par_iter_mut().zip(pairs.par_chunks(BLOCK)).for_each(|(terms, pairs)| {
+            terms.clear();
+            terms.extend(pairs.iter().map(|&[a, b]| {
+                let (a, b) = (a as usize, b as usize);
+                let square = |d: usize| (position[d][a] - position[d][b]).powi(2);
+                let distance = (square(0) + square(1) + square(2)).sqrt();
+                let term = |other: usize| {
+                    kernel.value(distance / mesh.bodies[body[other] as usize].length)
+                };
+                [term(b), term(a)]
+            }));
+        });
+        for &i in members {
+            rho[i as usize] = kernel.value(0.0);
+        }
+        for (&[a, b], term) in pairs.iter().zip(self.terms.iter().flatten()) {
+            rho[members[a as usize] as usize] += term[0];
+            rho[members[b as usize] as usize] += term[1];
+        }
+        for (&i, &body) in members.iter().zip(body) {
+            rho[i as usize] *= kernel.scale(i as usize) * mesh.bodies[body as usize].rho_0;
+        }
+        2 * pairs.len() as u64
+    }
+
     /// Forces, conduction and the marks of touched particles.
     pub fn push(
         &mut self,
@@ -211,7 +247,7 @@ impl Contacts {
         (method, dt): (&Method, f64),
         (sums, touched, active): (&mut Sums, &mut [bool], &mut [bool]),
     ) {
-        let view = View { mesh, state, derived, method };
+        let view = View { mesh, state, derived, method, kernel: self.kernel.as_ref() };
         let pairs = self.list.pairs();
         self.blocks.resize_with(pairs.len().div_ceil(BLOCK), Vec::new);
         let (position, members, body) = (&self.position, &self.members, &self.body);
@@ -275,6 +311,8 @@ impl Contacts {
         let blocks: usize = self.blocks.iter().map(Vec::capacity).sum();
         self.members.capacity() * (4 + 48 + 4 + 1 + 2 + 6)
             + self.list.bytes()
+            + self.kernel.as_ref().map_or(0, Kernel::bytes)
+            + 16 * self.terms.iter().map(Vec::capacity).sum::<usize>()
             + blocks * std::mem::size_of::<Active>()
     }
 }
@@ -286,17 +324,26 @@ impl View<'_> {
         let [i, j] = pair.map(|k| k as usize);
         let square = r[0] * r[0] + r[1] * r[1] + r[2] * r[2];
         let body = bodies.map(|b| &self.mesh.bodies[b]);
-        let widest = body[0].length.max(body[1].length) * self.method.contact_reach;
+        let widest = body[0].length.max(body[1].length) * self.method.reach();
         if square >= widest * widest {
             return None;
         }
         let distance = square.sqrt();
         let ratio = [self.derived.rho[i] / body[0].rho_0, self.derived.rho[j] / body[1].rho_0];
         // Of the first on the ellipsoid of the second, Eqs. (9), (35), and the other way round.
-        let row = [
-            body[0].rho_0 * self.row(distance, body[1].length, ratio[1]),
-            body[1].rho_0 * self.row(distance, body[0].length, ratio[0]),
-        ];
+        let row = match self.kernel {
+            None => [
+                body[0].rho_0 * self.row(distance, body[1].length, ratio[1]),
+                body[1].rho_0 * self.row(distance, body[0].length, ratio[0]),
+            ],
+            Some(kernel) => {
+                let row = |k: usize, i: usize, length: f64| {
+                    let slope = kernel.slope(distance / length) / (distance * length);
+                    body[k].rho_0 * kernel.scale(i) * slope
+                };
+                [row(0, i, body[1].length), row(1, j, body[0].length)]
+            }
+        };
         let near = distance < body[0].length.max(body[1].length);
         if row[0] == 0.0 && row[1] == 0.0 && !near {
             return None;

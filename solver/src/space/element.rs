@@ -25,9 +25,9 @@ const TORN: f64 = 4.0;
 /// Smallest pyramid, over its reference volume, of an element that counts as a volume.
 const CRUSHED: f64 = 0.2;
 
-/// Thickness, over the shortest edge at the start, below which a failed element ceases to count as a
-/// volume.
-const FLAT: f64 = 0.35;
+/// Thickness, over the shortest edge at the start, below which a sound and a failed element cease to
+/// count as volumes.
+const FLAT: [f64; 2] = [0.2, 0.35];
 
 /// Expansion at which a failed element ceases to count as a volume.
 const OPEN: f64 = 1.2;
@@ -542,8 +542,9 @@ impl Group {
         self.failed |= failing & self.live;
         let stretched = motion.stretch_squared().gt(F::splat(TORN * TORN));
         let open = motion.jacobian.gt(F::splat(OPEN)) & self.failed;
-        let thinnest = 0.5 * FLAT * solid.edge;
-        let flat = (volume * volume).lt(face * (thinnest * thinnest)) & self.failed;
+        // Faces come doubled.
+        let [sound, failed] = FLAT.map(|share| F::splat((0.5 * share * solid.edge).powi(2)));
+        let flat = (volume * volume).lt(face * F::select(self.failed, failed, sound));
         self.dying = (crushed | stretched | open | flat) & self.live;
         self.failed |= self.dying;
     }

@@ -60,12 +60,25 @@ pub struct Method {
     pub contact_tolerance: f64,
     /// Largest `zeta` of a contact.
     pub contact_reach: f64,
+    /// `zeta` at which the kernel ends; used by the kernel scheme alone.
+    pub kernel_support: f64,
     /// Loss of strength of failed elements.
     pub release: Release,
     /// Whether a tensile strength of a material fails its elements.
     pub spall: bool,
     /// Time step over the limiters' own.
     pub cfl: f64,
+}
+
+impl Method {
+    /// Distance, in contact lengths, up to which particles act on each other.
+    #[must_use]
+    pub fn reach(&self) -> f64 {
+        match self.density {
+            Density::Kernel => self.kernel_support,
+            Density::Nonholonomic | Density::Hybrid => self.contact_reach,
+        }
+    }
 }
 
 impl Preset {
@@ -87,6 +100,7 @@ impl Preset {
             balance: 1.0,
             contact_tolerance: 0.06,
             contact_reach: 1.12,
+            kernel_support: 1.7,
             release: Release::Crossings(5.0),
             spall: true,
             cfl: 0.8,

@@ -4,13 +4,14 @@ use super::columns::{Derived, State, Sums, pieces};
 use super::contacts::Contacts;
 use super::dispatch::Instructions;
 use super::element::{Demand, Laws, Read};
+use super::kernel::Kernel;
 use super::lattice::cross;
 use super::ledger::Holdings;
 use super::mesh::{Group, Mesh};
 use super::method::Method;
 use super::pass::{Labour, Load, over_elements};
 use super::scene::Scene;
-use super::sweep::{Allowed, Kick, Respond};
+use super::sweep::{Allowed, Kick, Respond, Stage};
 use super::walls::{Given, Wall};
 use crate::counters::Counters;
 use crate::error::{SceneError, StepError};
@@ -91,10 +92,12 @@ impl Simulation {
                 }
             }
         }
+        let kernel = (scene.method.density == Density::Kernel)
+            .then(|| Kernel::new(&mesh, scene.method.kernel_support));
         let mut simulation = Self {
             derived: Derived::zeros(mesh.len),
             sums: Sums::zeros(mesh.len),
-            contacts: Contacts::new(&mesh, !volumes),
+            contacts: Contacts::new(&mesh, !volumes, kernel),
             walls: Wall::all(scene, &mesh),
             active: vec![true; mesh.pieces.len()],
             touched: vec![false; mesh.len],
@@ -167,7 +170,6 @@ impl Simulation {
     /// # Errors
     /// A numerical failure.
     pub fn step(&mut self, until: f64) -> Result<(), StepError> {
-        self.contacts.refresh(&self.mesh, &self.state, &self.method, !self.volumes);
         self.load();
         let dt = self.elect(until)?;
         self.kick(dt);
@@ -288,25 +290,36 @@ impl Simulation {
 
     /// Ends the step, Eqs. (36), (58), (76), and evaluates the equation of state (22).
     fn respond(&mut self) {
+        self.sweep(Stage::Whole(self.kick, self.dt));
+        for body in &mut self.mesh.bodies {
+            for (way, velocity) in body.way.iter_mut().zip(body.velocity) {
+                *way += self.dt * velocity;
+            }
+        }
+        self.contacts.refresh(&self.mesh, &self.state, &self.method, !self.volumes);
+        if self.method.density == Density::Kernel {
+            let rho = &mut self.derived.rho;
+            self.counters.kernel_evaluations += self.contacts.sum_density(&self.mesh, rho);
+            let sane = self.allowed.sane;
+            self.sweep(Stage::State(self.dt));
+            self.allowed.sane = sane;
+        }
+        self.touched.fill(false);
+    }
+
+    fn sweep(&mut self, stage: Stage) {
         let work = Respond {
             mesh: &self.mesh,
             active: &self.active,
             touched: &self.touched,
             instructions: self.instructions,
             volumes: self.volumes,
-            kick: self.kick,
-            dt: self.dt,
+            stage,
         };
         let columns = (self.state.slices(), self.derived.slices(), self.sums.slices());
         if let Some(allowed) = pieces(columns, 0, 0..self.mesh.pieces.len(), &work) {
             self.allowed = allowed;
         }
-        for body in &mut self.mesh.bodies {
-            for (way, velocity) in body.way.iter_mut().zip(body.velocity) {
-                *way += self.dt * velocity;
-            }
-        }
-        self.touched.fill(false);
     }
 
     /// Takes elements that died in the step out of the volumes, and lets their particles touch others.
@@ -331,6 +344,7 @@ impl Simulation {
             for group in &mut self.groups {
                 group.look_beyond_the_dead(&self.mesh.ratio);
             }
+            self.contacts.refresh(&self.mesh, &self.state, &self.method, !self.volumes);
         }
     }
 

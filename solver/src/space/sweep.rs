@@ -62,10 +62,17 @@ pub struct Respond<'a> {
     pub instructions: Instructions,
     /// Whether elements carry the pressure, and ask for the time step that it needs.
     pub volumes: bool,
-    /// Length of the last kick.
-    pub kick: f64,
-    /// Length of the last drift.
-    pub dt: f64,
+    /// What is to be done.
+    pub stage: Stage,
+}
+
+/// A part of the response.
+#[derive(Debug, Clone, Copy)]
+pub enum Stage {
+    /// The end of a step after a kick and a drift of these lengths, and the equation of state.
+    Whole(f64, f64),
+    /// The equation of state alone, half of this long after the last kick, at densities known.
+    State(f64),
 }
 
 type Columns<'a> = (StateSlices<'a>, DerivedSlices<'a>, SumsSlices<'a>);
@@ -93,8 +100,7 @@ impl<'c> Work<Columns<'c>> for Respond<'_> {
             touched: &self.touched[range],
             columns: (state, derived, sums),
             volumes: self.volumes,
-            kick: self.kick,
-            dt: self.dt,
+            stage: self.stage,
         };
         Allowed { piece, ..self.instructions.run(kernel) }
     }
@@ -112,8 +118,7 @@ struct RespondPiece<'a> {
     touched: &'a [bool],
     columns: Columns<'a>,
     volumes: bool,
-    kick: f64,
-    dt: f64,
+    stage: Stage,
 }
 
 impl Kernel for RespondPiece<'_> {
@@ -133,26 +138,35 @@ impl Kernel for RespondPiece<'_> {
 impl RespondPiece<'_> {
     #[inline(always)]
     fn eight<F: Lanes>(&mut self, at: usize) -> Allowed {
-        let (state, derived, sums) = &mut self.columns;
-        let (kick, dt) = (self.kick, self.dt);
-        let mass = F::load(self.mass, at);
-        let ratio = F::load(self.ratio, at);
-        let zero = F::zero();
+        let (rho, u, sane) = match self.stage {
+            Stage::Whole(kick, dt) => self.end_step::<F>(at, kick, dt),
+            Stage::State(dt) => {
+                let (state, derived, _) = &self.columns;
+                let u = F::load(state.u, at) + F::load(state.u_rate, at) * (0.5 * dt);
+                (F::load(derived.rho, at), u, true)
+            }
+        };
+        Allowed { sane, ..self.evaluate(at, rho, u) }
+    }
 
-        // End of the last step: Eqs. (36), (58) and (76).
+    /// Ends the last step, Eqs. (36), (58) and (76). Returns density and internal energy at the time
+    /// of the positions, and whether all is finite.
+    #[inline(always)]
+    fn end_step<F: Lanes>(&mut self, at: usize, kick: f64, dt: f64) -> (F, F, bool) {
+        let (state, derived, sums) = &mut self.columns;
+        let least = F::splat(THINNEST * self.body.rho_0);
         let volume_rate = F::load(sums.volume_rate, at);
         let mut rho_rate = F::load(sums.rho_rate, at) - F::load(derived.dilate, at) * volume_rate;
-        let alone = ratio.lt(F::splat(1e-9));
+        let alone = F::load(self.ratio, at).lt(F::splat(1e-9));
         if alone != 0 {
             let free = free_lanes(self.body, (&self.touched[at..], alone), derived, at);
             rho_rate = F::select(free, free_rate(self.body, derived, at), rho_rate);
         }
         let work = F::load(sums.heat, at) - F::load(derived.grip, at) * volume_rate * kick;
-        let gain = work / mass;
-        let rho = F::load(state.rho, at) + rho_rate * kick;
-        let rho = rho.max(F::splat(THINNEST * self.body.rho_0));
+        let gain = work / F::load(self.mass, at);
+        let rho = (F::load(state.rho, at) + rho_rate * kick).max(least);
         let u = F::load(state.u, at) + gain;
-        let u_rate = if kick > 0.0 { gain * (1.0 / kick) } else { zero };
+        let u_rate = if kick > 0.0 { gain * (1.0 / kick) } else { F::zero() };
         rho.store(state.rho, at);
         u.store(state.u, at);
         rho_rate.store(state.rho_rate, at);
@@ -178,16 +192,22 @@ impl RespondPiece<'_> {
             &mut *sums.heat,
             &mut *sums.rho_rate,
         ] {
-            zero.store(column, at);
+            F::zero().store(column, at);
         }
+        let sane = (finite - finite).abs().sum() == 0.0;
+        ((rho + rho_rate * (0.5 * dt)).max(least), u + u_rate * (0.5 * dt), sane)
+    }
 
-        // State at the time of the positions: Eq. (22).
-        let rho = (rho + rho_rate * (0.5 * dt)).max(F::splat(THINNEST * self.body.rho_0));
-        let response = self.body.eos.respond(rho, u + u_rate * (0.5 * dt));
+    /// Pressure and what follows from it, Eq. (22), and what that allows.
+    #[inline(always)]
+    fn evaluate<F: Lanes>(&mut self, at: usize, rho: F, u: F) -> Allowed {
+        let (state, derived, _) = &mut self.columns;
+        let (zero, forever) = (F::zero(), F::splat(f64::INFINITY));
+        let (mass, ratio) = (F::load(self.mass, at), F::load(self.ratio, at));
+        let response = self.body.eos.respond(rho, u);
         let reference = mass * (1.0 / self.body.rho_0);
-        let whole = (reference + ratio * volume).max(reference * SMALLEST);
-        let some = ratio.gt(zero);
-        let dilate = F::select(some, rho / whole, zero);
+        let whole = (reference + ratio * F::load(state.volume, at)).max(reference * SMALLEST);
+        let dilate = (rho / whole).keep(ratio.gt(zero));
         let per_density = response.pressure * mass / (rho * rho);
         let sound = response.sound_squared.sqrt();
         rho.store(derived.rho, at);
@@ -197,23 +217,22 @@ impl RespondPiece<'_> {
         response.theta.store(derived.theta, at);
         sound.store(derived.sound, at);
 
-        // What it allows.
-        let spacing = (F::splat(self.body.rho_0) / rho).min(F::splat(1.0));
-        let crossing = spacing / sound.max(F::splat(1e-300));
+        // Elements ask for what their own particles need.
         let loose = if self.volumes {
-            !(ratio.gt(F::splat(0.999)) & ratio.lt(F::splat(1.001))) | mask(&self.touched[at..])
+            let held = ratio.gt(F::splat(0.999)) & ratio.lt(F::splat(1.001));
+            !held | mask(&self.touched[at..])
         } else {
             Mask::MAX
         };
-        let crossing = F::select(loose, crossing, F::splat(f64::INFINITY));
-        let change = rho / rho_rate.abs().max(F::splat(1e-300));
-        let pressed = response.pressure.gt(zero);
-        let change = F::select(pressed, change, F::splat(f64::INFINITY));
+        let spacing = (F::splat(self.body.rho_0) / rho).min(F::splat(1.0));
+        let crossing = F::select(loose, spacing / sound.max(F::splat(1e-300)), forever);
+        let rate = F::load(state.rho_rate, at).abs();
+        let change = rho / rate.max(F::splat(1e-300));
+        let change = F::select(response.pressure.gt(zero), change, forever);
         Allowed {
             sound: CROSSING * self.body.edge() * crossing.least(),
             density: DENSEST_STEP * change.least(),
-            piece: 0,
-            sane: (finite - finite).abs().sum() == 0.0,
+            ..Allowed::ANYTHING
         }
     }
 }
