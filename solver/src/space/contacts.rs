@@ -134,9 +134,9 @@ impl Contacts {
         self.index[i] = member as u32;
         self.members.push(i as u32);
         let x = mesh.bodies[body].lattice.position(place);
-        for d in 0..3 {
-            self.reference[d].push(x[d]);
-            self.position[d].push(x[d]);
+        for (d, x) in x.into_iter().enumerate() {
+            self.reference[d].push(x);
+            self.position[d].push(x);
         }
         self.length.push(mesh.bodies[body].length as f32);
         self.flags.push(0);

@@ -247,8 +247,8 @@ impl<F: Lanes> Loads<F> {
     /// A force along a bond, on the corner and against the centroid.
     #[inline(always)]
     fn pull(&mut self, slot: usize, r: &V3<F>, bond: F) {
-        for d in 0..3 {
-            let f = bond * r[d];
+        for (d, r) in r.iter().enumerate() {
+            let f = bond * *r;
             self.force[slot][d] += f;
             self.force[CENTRE][d] -= f;
         }
@@ -603,8 +603,8 @@ impl Group {
             self.stress[k] = stress[k].pack();
             self.plastic[k] = plastic[k].pack();
         }
-        for k in 0..9 {
-            self.piola[k] = piola[k].pack();
+        for (own, piola) in self.piola.iter_mut().zip(piola) {
+            *own = piola.pack();
         }
         let step: Sym<F> = each(|k| plastic[k] - before[k]);
         let mean: Sym<F> = each(|k| (stress[k] + old[k]) * 0.5);

@@ -171,8 +171,8 @@ impl F8 {
     #[inline(always)]
     fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
         let mut out = [0.0; LANES];
-        for k in 0..LANES {
-            out[k] = f(self.0[k], other.0[k]);
+        for (out, (a, b)) in out.iter_mut().zip(self.0.into_iter().zip(other.0)) {
+            *out = f(a, b);
         }
         Self(out)
     }
@@ -292,7 +292,7 @@ impl Lanes for F8 {
     #[inline(always)]
     fn root_seed(self) -> Self {
         self.map(|x| {
-            let third = (x.to_bits() >> 32) * THIRD >> 32;
+            let third = ((x.to_bits() >> 32) * THIRD) >> 32;
             f64::from_bits(SEED.wrapping_sub(third) << 32)
         })
     }

@@ -117,8 +117,8 @@ impl Lattice {
         }
         let in_shape = |at: [usize; 3]| {
             let mut cell = [0; 3];
-            for k in 0..3 {
-                cell[order[k]] = at[k];
+            for (axis, at) in order.into_iter().zip(at) {
+                cell[axis] = at;
             }
             inside(body, cell)
         };
@@ -236,8 +236,8 @@ impl Lattice {
     #[must_use]
     pub fn position(&self, at: [i16; 3]) -> [f64; 3] {
         let mut x = self.origin;
-        for k in 0..3 {
-            let along = 0.5 * self.size[k] * f64::from(at[k]);
+        for (k, at) in at.into_iter().enumerate() {
+            let along = 0.5 * self.size[k] * f64::from(at);
             for (d, x) in x.iter_mut().enumerate() {
                 *x += along * self.axes[k][d];
             }

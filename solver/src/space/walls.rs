@@ -51,8 +51,7 @@ impl Wall {
     /// Velocities are those after the kick. `seen` is told of every particle that was stopped.
     pub fn keep(
         &self,
-        mesh: &Mesh,
-        contacts: &Contacts,
+        (mesh, contacts): (&Mesh, &Contacts),
         (state, derived): (&mut State, &mut Derived),
         dt: f64,
         given: &mut Given,
