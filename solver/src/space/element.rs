@@ -692,7 +692,8 @@ impl Group {
             let nu = mass * F::select(closing, shock, sound * method.visc_expansion);
             let bond = nu * jump * inverse;
             self.bonds[slot] = bond.pack();
-            most = most.max(nu);
+            // A bond that pulls at nothing damps nothing: material at rest asks for no shorter step.
+            most = most.max(nu.keep(closing | speed.lt(zero)));
             loads.pull(slot, &r, bond);
             if conduct > 0.0 {
                 let difference = seen.theta[slot] - seen.theta[CENTRE];
