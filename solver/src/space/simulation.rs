@@ -173,6 +173,8 @@ impl Simulation {
         self.load();
         let dt = self.elect(until)?;
         self.kick(dt);
+        // What a contact or a wall has moved strains elements in this step already.
+        self.wake();
         self.work();
         self.respond();
         self.time = if dt >= until - self.time { until } else { self.time + dt };
