@@ -13,3 +13,4 @@ mod failures;
 mod laws;
 mod properties;
 mod refusals;
+mod space;

@@ -1,0 +1,5 @@
+//! Tests of the solver in three dimensions.
+
+mod plain;
+mod reference;
+mod scenes;

@@ -1,0 +1,863 @@
+//! The step in three dimensions once more, as plainly as it can be written: one particle, one
+//! element and one pair after the other, positions instead of displacements, whole matrices in global
+//! axes, and a search for contacts through all pairs.
+//!
+//! It knows the hybrid scheme with the limited viscosity, Mie-Grueneisen solids with the hardening
+//! law (44) and the von Mises reading, boxes and cylinders.
+
+use whipple_solver::space::Scene;
+use whipple_solver::space::lattice::rotation;
+use whipple_solver::space::method::{Method, Release};
+use whipple_solver::space::scene::{Body, EosData, Flow, Material, Shape};
+
+pub type V = [f64; 3];
+type M = [[f64; 3]; 3];
+
+fn add(a: V, b: V) -> V {
+    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
+}
+
+pub fn sub(a: V, b: V) -> V {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+fn times(a: V, s: f64) -> V {
+    a.map(|a| a * s)
+}
+
+pub fn dot(a: V, b: V) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+pub fn cross(a: V, b: V) -> V {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+pub fn norm(a: V) -> f64 {
+    dot(a, a).sqrt()
+}
+
+const NOTHING: M = [[0.0; 3]; 3];
+const ONE: M = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+
+fn matrix(f: impl Fn(usize, usize) -> f64) -> M {
+    std::array::from_fn(|i| std::array::from_fn(|j| f(i, j)))
+}
+
+fn product(a: &M, b: &M) -> M {
+    matrix(|i, j| (0..3).map(|k| a[i][k] * b[k][j]).sum())
+}
+
+fn transposed(a: &M) -> M {
+    matrix(|i, j| a[j][i])
+}
+
+/// `a + s b`.
+fn plus(a: &M, s: f64, b: &M) -> M {
+    matrix(|i, j| a[i][j] + s * b[i][j])
+}
+
+fn scaled(a: &M, s: f64) -> M {
+    matrix(|i, j| s * a[i][j])
+}
+
+fn contract(a: &M, b: &M) -> f64 {
+    (0..3).map(|i| dot(a[i], b[i])).sum()
+}
+
+fn trace(a: &M) -> f64 {
+    a[0][0] + a[1][1] + a[2][2]
+}
+
+fn determinant(a: &M) -> f64 {
+    dot(a[0], cross(a[1], a[2]))
+}
+
+fn cofactors(a: &M) -> M {
+    [cross(a[1], a[2]), cross(a[2], a[0]), cross(a[0], a[1])]
+}
+
+/// The norm (40).
+fn size(a: &M) -> f64 {
+    (0.5 * contract(a, a)).sqrt()
+}
+
+/// `(A B + B A) / 2`.
+fn symmetric_product(a: &M, b: &M) -> M {
+    scaled(&plus(&product(a, b), 1.0, &product(b, a)), 0.5)
+}
+
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Particle {
+    pub body: usize,
+    /// Half cells along the body's own axes.
+    pub place: [i32; 3],
+    pub start: V,
+    pub displacement: V,
+    /// Relative to the body's translation, as the displacement.
+    pub v: V,
+    pub mass: f64,
+    /// Elements round it, and those of them that are live; a centroid counts its own as eight.
+    pub round: usize,
+    pub live: usize,
+    pub rho: f64,
+    pub u: f64,
+    rho_rate: f64,
+    u_rate: f64,
+    /// At the time of the positions.
+    pub rho_now: f64,
+    pub pressure: f64,
+    theta: f64,
+    sound: f64,
+    /// Density over the volume of its live elements' shares.
+    dilate: f64,
+    force: V,
+    mean: V,
+    heat: f64,
+    growth: f64,
+    growth_rate: f64,
+    contact_rate: f64,
+    touched: bool,
+    exposed: bool,
+}
+
+#[derive(Debug, Clone)]
+pub struct Element {
+    pub body: usize,
+    pub corners: [usize; 8],
+    pub centre: usize,
+    /// Elements beyond its corners.
+    beyond: [Option<usize>; 8],
+    pub live: bool,
+    pub failed: bool,
+    dying: bool,
+    pub damage: f64,
+    pub strain: f64,
+    plastic: M,
+    stress: M,
+    piola: M,
+    tension: [f64; 6],
+    bonds: [f64; 8],
+}
+
+struct Solid {
+    material: Material,
+    c0: f64,
+    s: f64,
+    gamma: f64,
+    c_v: f64,
+    theta_0: f64,
+    bulk: f64,
+    mu: f64,
+    /// Longitudinal sound speed.
+    fast: f64,
+    cell: V,
+    axes: [V; 3],
+    edge: f64,
+    volume: f64,
+    length: f64,
+    velocity: V,
+    way: V,
+}
+
+struct Contact {
+    pair: [usize; 2],
+    r: V,
+    row: [f64; 2],
+    push: [f64; 2],
+    drag: f64,
+}
+
+pub struct Plain {
+    method: Method,
+    bodies: Vec<Solid>,
+    pub particles: Vec<Particle>,
+    pub elements: Vec<Element>,
+    contacts: Vec<Contact>,
+    pub dt: f64,
+    allowed: [f64; 2],
+    rate: f64,
+    /// Contacts of all steps so far, and deaths.
+    pub touches: usize,
+    pub deaths: usize,
+}
+
+/// Corners round the six faces, seen from outside against the clock.
+fn faces() -> Vec<[usize; 4]> {
+    let mut all = Vec::new();
+    for axis in 0..3 {
+        let (next, last) = (1 << ((axis + 1) % 3), 1 << ((axis + 2) % 3));
+        let up = 1 << axis;
+        all.push([up, up + next, up + next + last, up + last]);
+        all.push([0, last, next + last, next]);
+    }
+    all
+}
+
+/// Volume of the pyramid from the ninth point to a face: the sum over the triangles between the edges
+/// and the face's middle.
+fn pyramid(y: &[V; 9], face: [usize; 4]) -> f64 {
+    let middle = times(face.iter().fold([0.0; 3], |sum, &k| add(sum, y[k])), 0.25);
+    let top = y[8];
+    (0..4)
+        .map(|k| {
+            let (a, b) = (sub(y[face[k]], top), sub(y[face[(k + 1) % 4]], top));
+            dot(sub(middle, top), cross(a, b)) / 6.0
+        })
+        .sum()
+}
+
+/// Gradient of that volume with respect to the nine points, from the same triangles.
+fn pyramid_gradient(y: &[V; 9], face: [usize; 4]) -> [V; 9] {
+    let middle = times(face.iter().fold([0.0; 3], |sum, &k| add(sum, y[k])), 0.25);
+    let mut out = [[0.0; 3]; 9];
+    for k in 0..4 {
+        let (i, j) = (face[k], face[(k + 1) % 4]);
+        let (m, a, b) = (sub(middle, y[8]), sub(y[i], y[8]), sub(y[j], y[8]));
+        let (to_m, to_a, to_b) = (cross(a, b), cross(b, m), cross(m, a));
+        for &corner in &face {
+            out[corner] = add(out[corner], times(to_m, 0.25 / 6.0));
+        }
+        out[i] = add(out[i], times(to_a, 1.0 / 6.0));
+        out[j] = add(out[j], times(to_b, 1.0 / 6.0));
+        let all = add(to_m, add(to_a, to_b));
+        out[8] = sub(out[8], times(all, 1.0 / 6.0));
+    }
+    out
+}
+
+/// Weights of the nine particles in a pyramid (decision 0013).
+fn weights(face: [usize; 4], balance: f64) -> [f64; 9] {
+    std::array::from_fn(|slot| match slot {
+        8 => 0.5,
+        slot if face.contains(&slot) => 0.125 + 0.125 * balance,
+        _ => -0.125 * balance,
+    })
+}
+
+fn in_shape(body: &Body, cell: [usize; 3]) -> bool {
+    let off = |axis: usize| {
+        let n = body.cells[axis] as f64;
+        ((cell[axis] as f64 + 0.5) / n - 0.5) * 2.0
+    };
+    match body.shape {
+        Shape::Box { .. } => true,
+        Shape::Cylinder { .. } => off(0).powi(2) + off(1).powi(2) <= 1.0,
+        Shape::Sphere { .. } => off(0).powi(2) + off(1).powi(2) + off(2).powi(2) <= 1.0,
+    }
+}
+
+impl Plain {
+    pub fn new(scene: &Scene) -> Self {
+        let mut plain = Self {
+            method: scene.method,
+            bodies: Vec::new(),
+            particles: Vec::new(),
+            elements: Vec::new(),
+            contacts: Vec::new(),
+            dt: 0.0,
+            allowed: [f64::INFINITY; 2],
+            rate: 0.0,
+            touches: 0,
+            deaths: 0,
+        };
+        for body in &scene.bodies {
+            let index = scene.material_index(&body.material).expect("a material");
+            plain.fill(body, &scene.materials[index]);
+        }
+        plain.respond(0.0, 0.0);
+        plain
+    }
+
+    fn fill(&mut self, data: &Body, material: &Material) {
+        let k = self.bodies.len();
+        let cells: Vec<[usize; 3]> = (0..data.cells[0])
+            .flat_map(|i| (0..data.cells[1]).map(move |j| (i, j)))
+            .flat_map(|(i, j)| (0..data.cells[2]).map(move |l| [i, j, l]))
+            .filter(|&cell| in_shape(data, cell))
+            .collect();
+        let mut cell: V = std::array::from_fn(|d| data.shape.extent()[d] / data.cells[d] as f64);
+        let wanted = data.shape.volume() / cells.len() as f64;
+        let nominal = cell[0] * cell[1] * cell[2];
+        if let Shape::Cylinder { .. } = data.shape {
+            for d in 0..2 {
+                cell[d] *= (wanted / nominal).sqrt();
+            }
+        }
+        let volume: f64 = cell.iter().product();
+        let axes = rotation(data.turn.axis, data.turn.degrees.to_radians());
+        let EosData::MieGruneisen { c0, s, gamma_0, c_v, theta_0, .. } = material.eos else {
+            panic!("the plain step knows solids alone");
+        };
+        let mu = material.strength.map_or(0.0, |s| s.shear_modulus);
+        let bulk = material.density * c0 * c0;
+        self.bodies.push(Solid {
+            material: material.clone(),
+            c0,
+            s,
+            gamma: gamma_0,
+            c_v,
+            theta_0,
+            bulk,
+            mu,
+            fast: ((bulk + 4.0 / 3.0 * mu) / material.density).sqrt(),
+            cell,
+            axes,
+            edge: cell.iter().copied().fold(f64::INFINITY, f64::min),
+            volume,
+            length: 0.75f64.sqrt() * volume.cbrt(),
+            velocity: data.velocity,
+            way: [0.0; 3],
+        });
+        let at = |place: [i32; 3]| {
+            let mut x = data.centre;
+            for d in 0..3 {
+                let along = 0.5 * cell[d] * (f64::from(place[d]) - data.cells[d] as f64);
+                x = add(x, times(axes[d], along));
+            }
+            x
+        };
+        let mut found = std::collections::BTreeMap::new();
+        for cell in &cells {
+            let centre = cell.map(|c| 2 * c as i32 + 1);
+            for (place, round) in
+                corners_of(centre).into_iter().map(|p| (p, 1)).chain([(centre, 8)])
+            {
+                let i = *found.entry(place).or_insert_with(|| {
+                    self.particles.push(Particle {
+                        body: k,
+                        place,
+                        start: at(place),
+                        rho: material.density,
+                        u: data.energy,
+                        ..Particle::default()
+                    });
+                    self.particles.len() - 1
+                });
+                self.particles[i].round += round;
+            }
+        }
+        for p in self.particles.iter_mut().filter(|p| p.body == k) {
+            p.live = p.round;
+            p.mass = material.density * volume * p.round as f64 / 16.0;
+            p.exposed = p.round < 8;
+            p.v = cross(data.spin, sub(p.start, data.centre));
+        }
+        let first = self.elements.len();
+        let number: std::collections::BTreeMap<[usize; 3], usize> =
+            cells.iter().enumerate().map(|(n, &cell)| (cell, first + n)).collect();
+        for cell in &cells {
+            let centre = cell.map(|c| 2 * c as i32 + 1);
+            let beyond = corners_of([0; 3]).map(|way| {
+                let next: [i32; 3] = std::array::from_fn(|d| cell[d] as i32 + way[d]);
+                let inside = next.iter().all(|&c| c >= 0);
+                inside.then(|| number.get(&next.map(|c| c as usize)).copied()).flatten()
+            });
+            self.elements.push(Element {
+                body: k,
+                corners: corners_of(centre).map(|place| found[&place]),
+                centre: found[&centre],
+                beyond,
+                live: true,
+                failed: false,
+                dying: false,
+                damage: 0.0,
+                strain: 0.0,
+                plastic: NOTHING,
+                stress: NOTHING,
+                piola: NOTHING,
+                tension: [0.0; 6],
+                bonds: [0.0; 8],
+            });
+        }
+    }
+
+    pub fn position(&self, i: usize) -> V {
+        let p = &self.particles[i];
+        add(p.start, add(self.bodies[p.body].way, p.displacement))
+    }
+
+    pub fn velocity(&self, i: usize) -> V {
+        add(self.particles[i].v, self.bodies[self.particles[i].body].velocity)
+    }
+
+    pub fn length(&self, body: usize) -> f64 {
+        self.bodies[body].length
+    }
+
+    /// One step.
+    pub fn step(&mut self) {
+        self.rate = 0.0;
+        for e in 0..self.elements.len() {
+            if self.elements[e].live {
+                self.load(e);
+            }
+        }
+        self.touch();
+        let before = self.dt;
+        self.dt = self.elect();
+        let kick = 0.5 * (before + self.dt);
+        for p in &mut self.particles {
+            let gain = times(p.force, kick / p.mass);
+            p.mean = add(p.v, times(gain, 0.5));
+            p.v = add(p.v, gain);
+        }
+        self.work(kick);
+        self.respond(kick, self.dt);
+        self.bury();
+    }
+
+    fn slots(&self, e: usize) -> [usize; 9] {
+        let e = &self.elements[e];
+        std::array::from_fn(|slot| if slot == 8 { e.centre } else { e.corners[slot] })
+    }
+
+    /// Positions of an element's particles about its centroid at the start, at the start and now.
+    fn points(&self, e: usize) -> ([V; 9], [V; 9]) {
+        let slots = self.slots(e);
+        let origin = self.particles[slots[8]].start;
+        let rest = slots.map(|i| sub(self.particles[i].start, origin));
+        let now = std::array::from_fn(|k| add(rest[k], self.particles[slots[k]].displacement));
+        (rest, now)
+    }
+
+    /// Gradients of the corners' shape functions.
+    fn shape_gradients(&self, body: usize) -> [V; 8] {
+        let solid = &self.bodies[body];
+        std::array::from_fn(|slot| {
+            (0..3).fold([0.0; 3], |sum, d| {
+                let sign = if slot >> d & 1 == 1 { 0.25 } else { -0.25 };
+                add(sum, times(solid.axes[d], sign / solid.cell[d]))
+            })
+        })
+    }
+
+    fn load(&mut self, e: usize) {
+        let body = self.elements[e].body;
+        let (rest, now) = self.points(e);
+        let slots = self.slots(e);
+        let gradients = self.shape_gradients(body);
+        let solid = &self.bodies[body];
+        let method = self.method;
+        let gradient = |y: &[V; 9]| {
+            matrix(|i, j| (0..8).map(|slot| y[slot][i] * gradients[slot][j]).sum::<f64>())
+        };
+        let f = plus(&ONE, 1.0, &plus(&gradient(&now), -1.0, &gradient(&rest)));
+        let jacobian = determinant(&f);
+        let q = jacobian.max(1e-3).powf(-2.0 / 3.0);
+        let c = product(&transposed(&f), &f);
+        let faces = faces();
+        let volumes: Vec<f64> = faces.iter().map(|&face| pyramid(&now, face)).collect();
+        let references: Vec<f64> = faces.iter().map(|&face| pyramid(&rest, face)).collect();
+        let opening: Vec<f64> = (0..6).map(|k| volumes[k] / references[k] - 1.0).collect();
+        let volume: f64 = volumes.iter().sum();
+        let widest_face = faces
+            .iter()
+            .map(|face| {
+                let [a, b, c, d] = face.map(|k| now[k]);
+                norm(cross(sub(c, a), sub(d, b)))
+            })
+            .fold(0.0, f64::max);
+        let warmth: Vec<f64> = slots.iter().map(|&i| self.particles[i].theta).collect();
+        let theta = 0.5 * warmth[8] + warmth[..8].iter().sum::<f64>() / 16.0;
+        let stretch = q * trace(&c) / 3.0 * q.max(1.0);
+
+        // Failure (47), and the end of an element as a volume.
+        let element = &mut self.elements[e];
+        let failure = &solid.material.failure;
+        let smallest = opening.iter().copied().fold(f64::INFINITY, f64::min);
+        let widest = opening.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let crushed = smallest < 0.2 - 1.0 || jacobian < failure.compression;
+        let spent = failure.plastic_strain.is_some_and(|limit| element.strain > limit)
+            || failure.melt.is_some_and(|limit| theta > limit);
+        let pull = (1.0 - element.damage) * solid.bulk * widest;
+        let pulled = method.spall && failure.spall.is_some_and(|limit| pull > limit);
+        element.failed |= spent || crushed || pulled;
+        let flat = volume < widest_face * 0.5 * 0.35 * solid.edge;
+        element.dying = crushed || stretch > 16.0 || element.failed && (jacobian > 1.2 || flat);
+        element.failed |= element.dying;
+
+        let mut freed = 0.0;
+        if element.failed {
+            let step = match method.release {
+                Release::Steps(n) => 1.0 / n,
+                Release::Crossings(n) => self.dt * solid.fast / (n * solid.edge),
+            };
+            let before = element.damage;
+            element.damage = if element.dying { 1.0 } else { (before + step).min(1.0) };
+            let whole = 1.0 - before;
+            let elastic = if whole > 0.0 && solid.mu > 0.0 {
+                scaled(&element.stress, 0.5 / (whole * solid.mu))
+            } else {
+                NOTHING
+            };
+            let shear = solid.mu * contract(&elastic, &elastic) * solid.volume;
+            let tension: f64 = (0..6)
+                .map(|k| 0.5 * solid.bulk * references[k] * opening[k].max(0.0).powi(2))
+                .sum();
+            freed += (shear + tension) * (element.damage - before);
+            element.stress = scaled(&element.stress, (1.0 - element.damage) / whole.max(1e-300));
+        }
+        let intact = 1.0 - element.damage;
+        let mut forces = [[0.0; 3]; 9];
+        let mut squared: f64 = 0.0;
+        if solid.mu > 0.0 {
+            let strain = scaled(&plus(&scaled(&c, q), -1.0, &ONE), 0.5);
+            let (old, from) = (element.stress, element.plastic);
+            let modulus = 2.0 * intact * solid.mu;
+            flow(element, solid, &strain, (modulus, intact, theta));
+            element.stress = scaled(&plus(&strain, -1.0, &element.plastic), modulus);
+            let flowed = plus(&element.plastic, -1.0, &from);
+            freed += solid.volume * contract(&plus(&old, 1.0, &element.stress), &flowed) * 0.5;
+            let spin = contract(&element.stress, &c) / (3.0 * jacobian);
+            element.piola = scaled(&plus(&product(&f, &element.stress), -spin, &cofactors(&f)), q);
+            for slot in 0..8 {
+                let pull: V = std::array::from_fn(|d| dot(element.piola[d], gradients[slot]));
+                forces[slot] = sub(forces[slot], times(pull, solid.volume));
+            }
+            squared = stretch * (2.0 * solid.fast / solid.edge).powi(2);
+        }
+        let mut heat: [f64; 9] = [freed / 16.0; 9];
+        heat[8] = 0.5 * freed;
+
+        // Tension (25) and pressure of the pyramids.
+        let mut growth = [0.0; 9];
+        for (k, &face) in faces.iter().enumerate() {
+            element.tension[k] = intact * solid.bulk * opening[k].max(0.0);
+            let weights = weights(face, method.balance);
+            let mut push = -element.tension[k];
+            for slot in 0..9 {
+                let p = &self.particles[slots[slot]];
+                push += weights[slot] * p.pressure * p.mass / (p.rho_now * p.rho_now) * p.dilate;
+                growth[slot] += weights[slot] * (volumes[k] - references[k]);
+            }
+            let slopes = pyramid_gradient(&now, face);
+            for slot in 0..9 {
+                forces[slot] = add(forces[slot], times(slopes[slot], push));
+            }
+        }
+        let fastest = slots.iter().map(|&i| self.particles[i].sound).fold(0.0, f64::max);
+        let stiffening = 1.0 + 4.0 / 3.0 * solid.mu / solid.bulk;
+        squared = squared.max((widest_face * fastest * 2.0 / volume).powi(2) * stiffening);
+
+        // Limited viscosity and the heat flux in shocks.
+        let area = 0.75 * solid.volume.powf(2.0 / 3.0);
+        let mut stiffest: f64 = 0.0;
+        let bonds: [f64; 8] = std::array::from_fn(|slot| {
+            let [n, x, opposite] = [slot, 8, 7 - slot].map(|k| &self.particles[slots[k]]);
+            let apart = sub(now[slot], now[8]);
+            let along = times(apart, 1.0 / norm(apart));
+            let own = dot(along, sub(x.v, n.v));
+            let before = dot(along, sub(opposite.v, x.v));
+            let beyond = self.elements[e].beyond[slot].filter(|&b| self.elements[b].live);
+            let beyond = beyond
+                .map_or(0.0, |b| dot(along, sub(n.v, self.particles[self.elements[b].centre].v)));
+            let explained = if before * own > 0.0 && beyond * own > 0.0 {
+                (method.limiter * before * beyond / ((before + beyond) * own)).min(1.0)
+            } else {
+                0.0
+            };
+            let rings = before * own < 0.0 && beyond * own < 0.0;
+            let jump = if own > 0.0 || rings { own * (1.0 - explained) } else { 0.0 };
+            let sound = 0.5 * (n.sound + x.sound);
+            let rho = 0.5 * (n.rho_now + x.rho_now);
+            let nu = rho
+                * area
+                * if jump > 0.0 {
+                    let steep = method.visc_quad * solid.s * jump;
+                    steep + steep.hypot(method.visc_linear * sound)
+                } else {
+                    method.visc_expansion * sound
+                };
+            if jump != 0.0 {
+                stiffest = stiffest.max(nu);
+            }
+            forces[slot] = add(forces[slot], times(along, nu * jump));
+            forces[8] = sub(forces[8], times(along, nu * jump));
+            let flux = method.heat_coeff * solid.c_v * rho * area * jump.max(0.0);
+            let flux = flux * (n.theta - x.theta) * self.dt;
+            heat[slot] -= flux;
+            heat[8] += flux;
+            nu * jump / norm(apart)
+        });
+        self.elements[e].bonds = bonds;
+        let mass = 0.5 * solid.material.density * solid.volume;
+        let damping = stiffest * 16.0 / 3.0 / mass;
+        self.rate =
+            self.rate.max(0.25 * damping + 0.5 * (0.25 * damping * damping + squared).sqrt());
+        for slot in 0..9 {
+            let p = &mut self.particles[slots[slot]];
+            p.force = add(p.force, forces[slot]);
+            p.heat += heat[slot];
+            p.growth += growth[slot];
+        }
+    }
+
+    /// Contacts, Eqs. (35)-(36), (78) and their viscosity.
+    fn touch(&mut self) {
+        self.contacts.clear();
+        let positions: Vec<V> = (0..self.particles.len()).map(|i| self.position(i)).collect();
+        let reach = self.method.contact_reach;
+        for i in 0..self.particles.len() {
+            for j in 0..i {
+                let (a, b) = (&self.particles[i], &self.particles[j]);
+                let widest = reach * self.bodies[a.body].length.max(self.bodies[b.body].length);
+                let r = sub(positions[i], positions[j]);
+                if r.iter().any(|r| r.abs() >= widest) || dot(r, r) >= widest * widest {
+                    continue;
+                }
+                if (a.exposed || b.exposed) && self.strangers(i, j) {
+                    self.contact([i, j], r);
+                }
+            }
+        }
+        self.touches += self.contacts.len();
+    }
+
+    /// Whether particles meet through contact alone.
+    fn strangers(&self, i: usize, j: usize) -> bool {
+        let (a, b) = (&self.particles[i], &self.particles[j]);
+        if a.body != b.body {
+            return true;
+        }
+        let span = (0..3).map(|d| (a.place[d] - b.place[d]).abs()).max().unwrap_or(0);
+        let broken = a.live < a.round || b.live < b.round;
+        let share = |e: &Element| {
+            let has = |i: usize| e.centre == i || e.corners.contains(&i);
+            e.live && has(i) && has(j)
+        };
+        (span > 12 || broken) && (span > 2 || !self.elements.iter().any(share))
+    }
+
+    fn contact(&mut self, pair: [usize; 2], r: V) {
+        let p = pair.map(|i| self.particles[i]);
+        let solid = p.map(|p| &self.bodies[p.body]);
+        let distance = norm(r);
+        let row = [0, 1].map(|k| {
+            let other = 1 - k;
+            let zeta = distance / solid[other].length;
+            let ratio = (p[other].rho_now / solid[other].material.density).cbrt();
+            if zeta >= self.method.contact_reach
+                || zeta * ratio >= 1.0 + self.method.contact_tolerance
+            {
+                return 0.0;
+            }
+            let zeta = zeta.max(0.8 / ratio);
+            0.375 * solid[k].material.density / (zeta.powi(5) * solid[other].length.powi(2))
+        });
+        let near = distance < solid[0].length.max(solid[1].length);
+        if row == [0.0; 2] && !near {
+            return;
+        }
+        let push = [0, 1].map(|k| row[k] * p[k].mass * p[k].pressure / p[k].rho_now.powi(2));
+        let approach = -dot(r, sub(self.velocity(pair[0]), self.velocity(pair[1]))) / distance;
+        let mut drag = 0.0;
+        if near && approach > 0.0 {
+            let impedance = [0, 1].map(|k| {
+                let volume = p[k].mass / solid[k].material.density;
+                solid[k].material.density * p[k].sound * volume.powf(2.0 / 3.0)
+            });
+            let sound = 0.5 * (p[0].sound + p[1].sound);
+            let slope = 0.5 * (solid[0].s + solid[1].s);
+            let steep = self.method.visc_quad * slope * approach / sound;
+            let nu = 0.5
+                * (impedance[0] + impedance[1])
+                * (steep + steep.hypot(self.method.visc_linear));
+            drag = nu * approach / distance;
+        }
+        let force = times(r, push[0] + push[1] + drag);
+        for (k, i) in pair.into_iter().enumerate() {
+            let p = &mut self.particles[i];
+            p.touched = true;
+            p.force = if k == 0 { add(p.force, force) } else { sub(p.force, force) };
+        }
+        self.contacts.push(Contact { pair, r, row, push, drag });
+    }
+
+    fn elect(&mut self) -> f64 {
+        let mut dt = self.allowed[0];
+        for solid in &self.bodies {
+            dt = dt.min(0.375 * solid.edge / solid.fast);
+        }
+        dt = (self.method.cfl * dt.min(1.0 / self.rate)).min(self.allowed[1]);
+        if self.dt > 0.0 { dt.min(1.05 * self.dt) } else { dt }
+    }
+
+    /// Rates over the mean velocity of the step.
+    fn work(&mut self, kick: f64) {
+        for e in 0..self.elements.len() {
+            if !self.elements[e].live {
+                continue;
+            }
+            let (_, now) = self.points(e);
+            let slots = self.slots(e);
+            let mean = slots.map(|i| self.particles[i].mean);
+            for face in faces() {
+                let slopes = pyramid_gradient(&now, face);
+                let rate: f64 = (0..9).map(|slot| dot(slopes[slot], mean[slot])).sum();
+                let weights = weights(face, self.method.balance);
+                for slot in 0..9 {
+                    self.particles[slots[slot]].growth_rate += weights[slot] * rate;
+                }
+            }
+            for slot in 0..8 {
+                let r = sub(now[slot], now[8]);
+                let closing = dot(r, sub(mean[8], mean[slot]));
+                let half = 0.5 * self.elements[e].bonds[slot] * closing * kick;
+                self.particles[slots[slot]].heat += half;
+                self.particles[slots[8]].heat += half;
+            }
+        }
+        for contact in &self.contacts {
+            let mean = contact.pair.map(|i| {
+                let p = &self.particles[i];
+                add(p.mean, self.bodies[p.body].velocity)
+            });
+            let closing = -dot(contact.r, sub(mean[0], mean[1]));
+            for k in 0..2 {
+                let p = &mut self.particles[contact.pair[k]];
+                p.contact_rate += contact.row[k] * closing;
+                p.heat += kick * (contact.push[k] + 0.5 * contact.drag) * closing;
+            }
+        }
+    }
+
+    /// Density, energy and position after a kick and a drift, and what follows from them.
+    fn respond(&mut self, kick: f64, dt: f64) {
+        self.allowed = [f64::INFINITY; 2];
+        for p in &mut self.particles {
+            let solid = &self.bodies[p.body];
+            let rho_0 = solid.material.density;
+            let pressure_work = p.pressure * p.mass / (p.rho_now * p.rho_now) * p.dilate;
+            let mut rate = p.contact_rate - p.dilate * p.growth_rate;
+            if p.live == 0 && !p.touched && p.pressure > 0.0 && p.rho_now > 0.8 * rho_0 {
+                rate = -0.07 * p.sound / solid.length * p.rho_now;
+            }
+            if kick > 0.0 {
+                let gain = (p.heat - pressure_work * p.growth_rate * kick) / p.mass;
+                p.u_rate = gain / kick;
+                p.u += gain;
+                p.rho_rate = rate;
+                p.rho = (p.rho + rate * kick).max(0.3 * rho_0);
+            }
+            let growth = p.growth + p.growth_rate * dt;
+            p.displacement = add(p.displacement, times(p.v, dt));
+            (p.force, p.heat, p.growth, p.growth_rate) = ([0.0; 3], 0.0, 0.0, 0.0);
+            p.contact_rate = 0.0;
+
+            p.rho_now = (p.rho + 0.5 * dt * p.rho_rate).max(0.3 * rho_0);
+            (p.pressure, p.sound, p.theta) = eos(solid, p.rho_now, p.u + 0.5 * dt * p.u_rate);
+            let reference = p.mass / rho_0;
+            p.dilate = if p.live > 0 {
+                let part = p.live as f64 / p.round as f64;
+                p.rho_now / (reference + growth / part).max(0.1 * reference)
+            } else {
+                0.0
+            };
+            if p.touched || p.live < p.round {
+                let crossing = (rho_0 / p.rho_now).min(1.0) / p.sound;
+                self.allowed[0] = self.allowed[0].min(0.375 * solid.edge * crossing);
+            }
+            if p.pressure > 0.0 && p.rho_rate != 0.0 {
+                self.allowed[1] = self.allowed[1].min(0.08 * p.rho_now / p.rho_rate.abs());
+            }
+            p.touched = false;
+        }
+        for solid in &mut self.bodies {
+            solid.way = add(solid.way, times(solid.velocity, dt));
+        }
+    }
+
+    fn bury(&mut self) {
+        for e in 0..self.elements.len() {
+            let element = &mut self.elements[e];
+            if !(element.live && element.dying) {
+                continue;
+            }
+            element.live = false;
+            self.deaths += 1;
+            for i in self.slots(e) {
+                let p = &mut self.particles[i];
+                p.live -= if i == self.elements[e].centre { 8 } else { 1 };
+                p.exposed = true;
+            }
+        }
+    }
+}
+
+fn corners_of(centre: [i32; 3]) -> [[i32; 3]; 8] {
+    std::array::from_fn(|slot| {
+        std::array::from_fn(|d| centre[d] + if slot >> d & 1 == 1 { 1 } else { -1 })
+    })
+}
+
+/// Pressure, sound speed and temperature.
+fn eos(solid: &Solid, rho: f64, u: f64) -> (f64, f64, f64) {
+    let rho_0 = solid.material.density;
+    let eta = (1.0 - rho_0 / rho).max(0.0);
+    let cap = 0.85 / solid.s;
+    let cold = |eta: f64| {
+        let shock = solid.bulk * eta / (1.0 - solid.s * eta).powi(2);
+        let slope = solid.bulk * (1.0 + solid.s * eta) / (1.0 - solid.s * eta).powi(3);
+        let release = 1.0 - 0.5 * solid.gamma * eta;
+        (shock * release, slope * release - 0.5 * solid.gamma * shock)
+    };
+    let (p_cold, slope) = if rho < rho_0 {
+        (solid.bulk * (rho - rho_0) / rho_0, solid.bulk / rho_0)
+    } else if eta < cap {
+        let (p, by_eta) = cold(eta);
+        // Exactly nothing at the reference density.
+        (if rho == rho_0 { 0.0 } else { p }, by_eta * rho_0 / (rho * rho))
+    } else {
+        let last = rho_0 / (1.0 - cap);
+        let (p, by_eta) = cold(cap);
+        let slope = by_eta * rho_0 / (last * last);
+        (p + slope * (rho - last), slope)
+    };
+    let product = solid.gamma * rho_0;
+    let pressure = (p_cold + product * u).max(0.0);
+    let squared = (slope + pressure * product / (rho * rho)).max(0.25 * solid.c0 * solid.c0);
+    let eta = eta.min(cap);
+    let cubic = 2.0 / 3.0 * (2.0 * solid.s - 0.5 * solid.gamma) + solid.gamma / 3.0;
+    let u_cold = 0.5 * (solid.c0 * eta).powi(2) * (1.0 + cubic * eta);
+    (pressure, squared.sqrt(), solid.theta_0 + (u - u_cold).max(0.0) / solid.c_v)
+}
+
+/// Plastic flow of the von Mises reading until the effective stress lies on the yield surface.
+fn flow(
+    element: &mut Element,
+    solid: &Solid,
+    strain: &M,
+    (modulus, intact, theta): (f64, f64, f64),
+) {
+    let Some(Flow::Hardening { y_0, kappa, alpha, eta, reference, melt }) =
+        solid.material.strength.and_then(|s| s.flow)
+    else {
+        return;
+    };
+    let homologous = ((theta - reference) / (melt - reference)).clamp(0.0, 1.0);
+    let soft = (1.0 - eta * homologous).max(0.0) * intact / 3f64.sqrt();
+    let yield_stress = |eps: f64| soft * y_0 * (1.0 + kappa * eps).powf(alpha);
+    let before = element.strain;
+    // Where nothing is left to yield, the surface is a point, and the map only approaches it.
+    for sweep in 0..20 {
+        let stress = scaled(&plus(strain, -1.0, &element.plastic), modulus);
+        let c = plus(&ONE, 2.0, &element.plastic);
+        let both = symmetric_product(&c, &stress);
+        let driver = plus(&both, -trace(&both) / 3.0, &ONE);
+        let gap = size(&driver) - yield_stress(element.strain);
+        if gap <= 0.0 && sweep == 0
+            || gap.abs() <= 1e-10 * yield_stress(element.strain) + 1e-13 * modulus
+        {
+            return;
+        }
+        let direction = symmetric_product(&c, &driver);
+        let normal = contract(&direction, &direction) / contract(&driver, &driver);
+        let hardening =
+            alpha * kappa * yield_stress(element.strain) / (1.0 + kappa * element.strain);
+        let measure = 2.0 / 3f64.sqrt();
+        let step = gap / (modulus * normal + hardening * measure);
+        element.plastic = plus(&element.plastic, step / size(&driver), &direction);
+        element.strain = (element.strain + step * measure).max(before);
+    }
+}
