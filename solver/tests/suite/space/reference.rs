@@ -473,8 +473,9 @@ impl Plain {
         let pull = (1.0 - element.damage) * solid.bulk * widest;
         let pulled = method.spall && failure.spall.is_some_and(|limit| pull > limit);
         element.failed |= spent || crushed || pulled;
-        let flat = volume < widest_face * 0.5 * 0.35 * solid.edge;
-        element.dying = crushed || stretch > 16.0 || element.failed && (jacobian > 1.2 || flat);
+        let thinnest = if element.failed { 0.35 } else { 0.2 };
+        let flat = volume < widest_face * 0.5 * thinnest * solid.edge;
+        element.dying = crushed || flat || stretch > 16.0 || element.failed && jacobian > 1.2;
         element.failed |= element.dying;
 
         let mut freed = 0.0;
