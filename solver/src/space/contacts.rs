@@ -49,6 +49,51 @@ pub struct Contacts {
     longest: f64,
 }
 
+/// What contacts keep from step to step, particle by particle.
+pub(super) struct Memory {
+    /// Member that a particle is, or [`NONE`].
+    pub(super) index: Vec<u32>,
+    /// Flags of the members.
+    pub(super) flags: Vec<u8>,
+    /// Where the members were when the list was made.
+    pub(super) places: [Vec<f64>; 3],
+    /// Whether the list is to be made anew.
+    pub(super) stale: bool,
+}
+
+/// The first entry of an index of members, by particle, that cannot be: they are numbered without
+/// gaps, and only real particles are members.
+pub(super) fn no_order(mesh: &Mesh, index: &[u32]) -> Option<u32> {
+    let mut real = vec![false; mesh.len];
+    mesh.real().for_each(|i| real[i] = true);
+    let members = index.iter().filter(|&&at| at != NONE).count();
+    let mut seen = vec![false; members];
+    let mut bad = |(&at, &real): (&u32, &bool)| match seen.get_mut(at as usize) {
+        Some(seen) => !real || std::mem::replace(seen, true),
+        None => at != NONE,
+    };
+    index.iter().zip(&real).find(|&pair| bad(pair)).map(|(&at, _)| at)
+}
+
+/// The members in order, from where each stands.
+fn in_order(index: &[u32]) -> Vec<u32> {
+    let mut members: Vec<u32> =
+        (0..index.len() as u32).filter(|&i| index[i as usize] != NONE).collect();
+    members.sort_unstable_by_key(|&i| index[i as usize]);
+    members
+}
+
+/// Members as the search sees them.
+fn points<'a>(
+    [x, y, z]: &'a [Vec<f64>; 3],
+    length: &'a [f32],
+    flags: &'a [u8],
+    body: &'a [u16],
+    lattice: Option<&'a [[i16; 3]]>,
+) -> Points<'a> {
+    Points { x, y, z, length, flags, body, lattice }
+}
+
 /// A pair in contact in this step.
 #[derive(Debug, Clone, Copy)]
 pub struct Active {
@@ -179,21 +224,22 @@ impl Contacts {
                 }
             });
         }
-        let points = Points {
-            x: &self.position[0],
-            y: &self.position[1],
-            z: &self.position[2],
-            length: &self.length,
-            flags: &self.flags,
-            body: &self.body,
-            lattice: (!everyone).then_some(&self.place[..]),
-        };
+        let lattice = (!everyone).then_some(&self.place[..]);
+        let points = points(&self.position, &self.length, &self.flags, &self.body, lattice);
         if !self.changed && !self.list.is_stale(&points) {
             return false;
         }
+        self.renew(mesh, method, everyone);
+        true
+    }
+
+    /// Makes the list anew from the present positions.
+    fn renew(&mut self, mesh: &Mesh, method: &Method, everyone: bool) {
         self.changed = false;
+        let lattice = (!everyone).then_some(&self.place[..]);
+        let points = points(&self.position, &self.length, &self.flags, &self.body, lattice);
         let reach = Reach { factor: method.reach(), skin: SKIN * self.longest };
-        let (place, flags) = (&self.place, &self.flags);
+        let (place, flags, body) = (&self.place, &self.flags, &self.body);
         let keep = |a: u32, b: u32| {
             let (a, b) = (a as usize, b as usize);
             if everyone || body[a] != body[b] {
@@ -205,7 +251,45 @@ impl Contacts {
             !together && !mesh.bonded(body[a] as usize, place[a], place[b])
         };
         self.list.rebuild(&points, reach, keep);
-        true
+    }
+
+    /// What must outlast a restart.
+    pub(super) fn memory(&self) -> Memory {
+        let by_particle = |member: &u32| (*member != NONE).then_some(*member as usize);
+        let flags = self.index.iter().map(|at| by_particle(at).map_or(0, |at| self.flags[at]));
+        let flags = flags.collect();
+        let mut places = [0; 3].map(|_| vec![0.0; self.index.len()]);
+        if !self.changed {
+            for (member, at) in self.list.made_at() {
+                for (places, at) in places.iter_mut().zip(at) {
+                    places[self.members[member as usize] as usize] = at;
+                }
+            }
+        }
+        Memory { index: self.index.clone(), flags, places, stale: self.changed }
+    }
+
+    /// The members, and the list as it was made.
+    pub(super) fn recall(
+        &mut self,
+        mesh: &Mesh,
+        memory: &Memory,
+        (method, everyone): (&Method, bool),
+    ) {
+        let (longest, kernel) = (self.longest, self.kernel.take());
+        *self = Self { index: vec![NONE; mesh.len], longest, kernel, ..Self::default() };
+        for i in in_order(&memory.index) {
+            let member = self.admit(mesh, i as usize);
+            self.flags[member] = memory.flags[i as usize];
+            for (position, places) in self.position.iter_mut().zip(&memory.places) {
+                position[member] = places[i as usize];
+            }
+        }
+        if memory.stale {
+            self.changed = true;
+        } else {
+            self.renew(mesh, method, everyone);
+        }
     }
 
     /// The sweep that the paper's scheme removes: density from the positions, if by a kernel.

@@ -14,6 +14,7 @@ pub mod method;
 pub mod near;
 pub mod output;
 pub mod pass;
+pub mod restart;
 pub mod scene;
 pub mod simulation;
 pub mod strength;

@@ -105,6 +105,19 @@ impl Simulation {
         })
     }
 
+    /// Pairs in the list of those that may touch.
+    #[must_use]
+    pub fn pairs(&self) -> usize {
+        self.contacts.pairs()
+    }
+
+    /// Particles that the present step moves: those that no wave has reached are left out.
+    #[must_use]
+    pub fn moving(&self) -> usize {
+        let pieces = self.mesh.pieces.iter().zip(&self.active);
+        pieces.filter(|(_, active)| **active).map(|(piece, _)| piece.real).sum()
+    }
+
     /// Number of bodies.
     #[must_use]
     pub fn bodies(&self) -> usize {

@@ -42,8 +42,8 @@ pub struct Simulation {
     /// Particles that touch others.
     touched: Vec<bool>,
     /// What the last evaluation of the equation of state allows.
-    allowed: Allowed,
-    demand: Demand,
+    pub(super) allowed: Allowed,
+    pub(super) demand: Demand,
     pub(super) time: f64,
     /// Length of the last drift.
     pub(super) dt: f64,
@@ -59,8 +59,8 @@ pub struct Simulation {
     pub(super) walls_gave: Given,
     pub(super) counters: Counters,
     instructions: Instructions,
-    asleep: bool,
-    volumes: bool,
+    pub(super) asleep: bool,
+    pub(super) volumes: bool,
 }
 
 impl Simulation {
@@ -351,10 +351,8 @@ impl Simulation {
     }
 
     fn count(&mut self) {
-        let pieces = self.mesh.pieces.iter().zip(&self.active);
-        let moved: usize = pieces.filter(|(_, active)| **active).map(|(piece, _)| piece.real).sum();
         self.counters.steps += 1;
-        self.counters.particle_steps += moved as u64;
+        self.counters.particle_steps += self.moving() as u64;
         self.counters.pairs += self.contacts.pairs() as u64;
     }
 

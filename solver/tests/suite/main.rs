@@ -13,4 +13,5 @@ mod failures;
 mod laws;
 mod properties;
 mod refusals;
+mod restart;
 mod space;

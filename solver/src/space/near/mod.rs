@@ -177,6 +177,11 @@ impl PairList {
         self.members != Some(points.x.len()) || self.motion.is_large(points)
     }
 
+    /// Members and where they were when the list was made.
+    pub fn made_at(&self) -> impl Iterator<Item = (u32, [f64; 3])> + '_ {
+        self.motion.members()
+    }
+
     /// Bytes that it takes.
     #[must_use]
     pub fn bytes(&self) -> usize {

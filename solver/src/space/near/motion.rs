@@ -100,6 +100,11 @@ impl Motion {
         self.sorter.bytes() + held(&self.start) + held(&self.members) + levels
     }
 
+    /// Members and where they were.
+    pub(super) fn members(&self) -> impl Iterator<Item = (u32, [f64; 3])> + '_ {
+        self.members.iter().map(|member| (member.id, member.at))
+    }
+
     /// Sets the limits for the list to come.
     pub(super) fn limit(&mut self, free: Free) {
         self.free = free;
