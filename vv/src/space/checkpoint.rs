@@ -1,0 +1,98 @@
+//! Checkpoints of a run in three dimensions: it continues from them bit for bit.
+
+use std::path::{Path, PathBuf};
+
+use whipple_solver::error::SceneError;
+use whipple_solver::space::restart::{RestartError, Values};
+use whipple_solver::space::{Scene, Simulation};
+
+use crate::checkpoint::{CheckpointError, Meta, Reader, Writer, save_next};
+
+/// Why a run does not continue.
+#[derive(Debug, thiserror::Error)]
+pub enum ResumeError {
+    /// The file is damaged, of another scene, or of another form.
+    #[error(transparent)]
+    Checkpoint(#[from] CheckpointError),
+    /// The file is whole, but no run has this state.
+    #[error(transparent)]
+    State(#[from] RestartError),
+    /// The scene itself is not valid.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+}
+
+/// Hash of a scene: BLAKE3 of its JSON, in hexadecimal. The time at which the run ends is left out,
+/// because a state does not depend on it: a finished run may go on for longer.
+#[must_use]
+pub fn scene_hash(scene: &Scene) -> String {
+    let endless = Scene { stop_time: 1.0, ..scene.clone() };
+    // A scene is plain data: JSON can carry all of it.
+    let json = serde_json::to_vec(&endless).unwrap_or_default();
+    blake3::hash(&json).to_hex().to_string()
+}
+
+/// A simulation as a checkpoint, to be written.
+///
+/// # Errors
+/// [`CheckpointError::Header`] if its time is not finite.
+pub fn pack(scene: &Scene, simulation: &Simulation) -> Result<Writer, CheckpointError> {
+    let mut writer = Writer::new(Meta {
+        program: concat!("whipple ", env!("CARGO_PKG_VERSION")).to_owned(),
+        scene: scene_hash(scene),
+        step: simulation.counters().steps,
+        time: simulation.time(),
+    });
+    for section in simulation.sections() {
+        let name = &section.name;
+        match &section.values {
+            Values::F64(values) => writer.section(name, values)?,
+            Values::U64(values) => writer.section(name, values)?,
+            Values::U32(values) => writer.section(name, values)?,
+            Values::U8(values) => writer.section(name, values)?,
+        }
+    }
+    Ok(writer)
+}
+
+/// Writes the state of a run to `folder`, in which the last two checkpoints are kept.
+///
+/// # Errors
+/// As [`save_next`]; the earlier checkpoints are then still there.
+pub fn save_simulation(
+    folder: &Path,
+    scene: &Scene,
+    simulation: &Simulation,
+) -> Result<PathBuf, CheckpointError> {
+    save_next(folder, &pack(scene, simulation)?)
+}
+
+/// The simulation of a scene as it was when the checkpoint `path` was written.
+///
+/// # Errors
+/// [`ResumeError`], with the section that is damaged or does not fit.
+pub fn load_simulation(path: &Path, scene: &Scene) -> Result<Simulation, ResumeError> {
+    unpack(Reader::open(path, &scene_hash(scene))?, scene)
+}
+
+/// The simulation of a scene from an opened checkpoint of it.
+///
+/// # Errors
+/// As [`load_simulation`].
+pub fn unpack(mut reader: Reader, scene: &Scene) -> Result<Simulation, ResumeError> {
+    let mut simulation = Simulation::new(scene)?;
+    // A new run has the same sections, of the same types and lengths.
+    let mut sections = simulation.sections();
+    for section in &mut sections {
+        let name = &section.name;
+        match &mut section.values {
+            Values::F64(values) => *values = reader.array(name, &[values.len()])?,
+            Values::U64(values) => *values = reader.array(name, &[values.len()])?,
+            Values::U32(values) => *values = reader.array(name, &[values.len()])?,
+            Values::U8(values) => *values = reader.array(name, &[values.len()])?,
+        }
+    }
+    reader.finish()?;
+    simulation.restore(&sections)?;
+    Ok(simulation)
+}

@@ -1,0 +1,133 @@
+//! Pictures of a run in three dimensions: its elements, and the particles that no element holds.
+
+use whipple_solver::space::output::{Element, Particle};
+use whipple_solver::space::{Scene, Simulation};
+use whipple_solver::units::{Dimension, Units};
+
+use super::frames::places;
+use crate::paint::{
+    Camera, ColourMap, Colouring, Field, Hexahedron, Length, Mark, Model, PaintError, Picture,
+    Plane, Sphere, paint,
+};
+
+/// What decides the colours.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Shown {
+    /// The body.
+    Body,
+    /// The temperature, between two values at the ends of the colour bar or those of the state.
+    Temperature(Option<(f64, f64)>),
+}
+
+/// A picture of a state.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Shot {
+    /// Heading.
+    pub title: String,
+    /// From where to look.
+    pub camera: Camera,
+    /// Where to cut.
+    pub section: Option<Plane>,
+    /// How to colour.
+    pub shown: Shown,
+}
+
+/// Looks at a body that comes along x and y, and at the plate across y that it meets, from above and
+/// the side: both faces of what comes and the front of the plate are seen.
+#[must_use]
+pub fn from_the_side() -> Camera {
+    Camera::new([0.28, 0.42, -1.0], [-0.1, 1.0, 0.3])
+}
+
+/// Looks straight at a plane of section across z.
+#[must_use]
+pub fn onto_the_section() -> Camera {
+    Camera::new([0.0, 0.0, -1.0], [0.0, 1.0, 0.0])
+}
+
+/// The plane z = 0, in which the problem is symmetric.
+#[must_use]
+pub fn symmetry_plane() -> Plane {
+    Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0] }
+}
+
+/// The box that holds the particles, but for a share of them beyond either end of each axis: scattered
+/// debris would make everything else small.
+#[must_use]
+pub fn frame(simulation: &Simulation, share: f64) -> [[f64; 3]; 2] {
+    let positions: Vec<[f64; 3]> = simulation.all_particles().map(|p| p.position).collect();
+    let mut ends = [[0.0; 3]; 2];
+    for axis in 0..3 {
+        let mut along: Vec<f64> = positions.iter().map(|x| x[axis]).collect();
+        along.sort_unstable_by(f64::total_cmp);
+        let out = ((along.len() as f64 * share) as usize).min(along.len().saturating_sub(1) / 2);
+        ends[0][axis] = along.get(out).copied().unwrap_or_default();
+        ends[1][axis] = along.iter().rev().nth(out).copied().unwrap_or_default();
+    }
+    ends
+}
+
+/// Live elements as hexahedra, particles without live elements as spheres as wide as a contact is
+/// long. The value of a mark is the temperature: of a particle, or the mean of an element by mass.
+#[must_use]
+pub fn model(simulation: &Simulation) -> Model {
+    let particles: Vec<Particle> = simulation.all_particles().collect();
+    let at = places(&particles);
+    let particle = |id: u32| &particles[at[id as usize] as usize];
+    let elements = simulation.all_elements().filter(|element| element.live);
+    let hexahedron = |element: Element| {
+        let corners: f64 = element.corners.iter().map(|&id| particle(id).theta).sum();
+        let mean = 0.5 * particle(element.centre).theta + 0.0625 * corners;
+        Hexahedron {
+            nodes: element.ring().map(|id| at[id as usize]),
+            mark: Mark { value: mean as f32, class: class(element.body) },
+        }
+    };
+    let hexahedra = elements.map(hexahedron).collect();
+    let radii: Vec<f64> =
+        (0..simulation.bodies()).map(|body| 0.5 * simulation.sizes(body).0).collect();
+    let sphere = |p: &Particle| Sphere {
+        centre: p.position,
+        radius: radii[p.body],
+        mark: Mark { value: p.theta as f32, class: class(p.body) },
+    };
+    let spheres = particles.iter().filter(|p| p.held == 0.0).map(sphere).collect();
+    let points = particles.iter().map(|p| p.position).collect();
+    Model { points, spheres, hexahedra, ellipsoids: Vec::new() }
+}
+
+/// Class of a body.
+fn class(body: usize) -> u8 {
+    body.min(usize::from(u8::MAX)) as u8
+}
+
+/// Paints the present state as a PNG file.
+///
+/// # Errors
+/// As [`paint`].
+pub fn shoot(simulation: &Simulation, scene: &Scene, shot: &Shot) -> Result<Vec<u8>, PaintError> {
+    let colouring = match shot.shown {
+        Shown::Body => Colouring::Classes(scene.bodies.iter().map(|b| b.name.clone()).collect()),
+        Shown::Temperature(range) => Colouring::Field(Field {
+            name: "temperature".to_owned(),
+            unit: scene.units.label(Dimension::Temperature).to_owned(),
+            range,
+            map: ColourMap::Heat,
+        }),
+    };
+    let unit = scene.units.label(Dimension::Length).to_owned();
+    let picture = Picture {
+        section: shot.section,
+        title: shot.title.clone(),
+        time: time(simulation.time(), scene.units),
+        length: Length { unit, factor: 1.0 },
+        ..Picture::new(shot.camera, colouring)
+    };
+    paint(&model(simulation), &picture)
+}
+
+/// The time of a state, as the picture says it.
+fn time(time: f64, units: Units) -> String {
+    let rounded = (time * 1e4).round() / 1e4;
+    format!("t = {rounded} {}", units.label(Dimension::Time)).trim_end().to_owned()
+}
