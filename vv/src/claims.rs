@@ -79,6 +79,14 @@ pub enum Quantity {
     EnergyDrift(RunKey),
     /// Largest error of the momentum balance.
     MomentumDrift(RunKey),
+    /// Largest error of the angular momentum balance, in space.
+    AngularDrift(RunKey),
+    /// Residual of the elements over the initial kinetic energy, in space.
+    Residual(RunKey),
+    /// Error of the mass of the bodies as they are meshed, in space.
+    GeometryMass(RunKey),
+    /// A norm of the first run over that of the second, less one.
+    Change(RunKey, RunKey, &'static str),
     /// Particle-steps per CPU second.
     Speed(RunKey),
     /// CPU seconds.
@@ -227,10 +235,14 @@ impl Quantity {
     pub fn runs(&self) -> Vec<RunKey> {
         match self {
             Self::Order(keys, _) => keys.clone(),
+            Self::Change(a, b, _) => vec![a.clone(), b.clone()],
             Self::Norm(key, _)
             | Self::WrongParticles(key, _)
             | Self::EnergyDrift(key)
             | Self::MomentumDrift(key)
+            | Self::AngularDrift(key)
+            | Self::Residual(key)
+            | Self::GeometryMass(key)
             | Self::Speed(key)
             | Self::CpuSeconds(key) => vec![key.clone()],
         }
@@ -248,6 +260,12 @@ impl Quantity {
             }
             Self::EnergyDrift(_) => Some(first.energy_drift),
             Self::MomentumDrift(_) => Some(first.momentum_drift),
+            Self::AngularDrift(_) => first.space.map(|s| s.angular_momentum_drift),
+            Self::Residual(_) => first.space.map(|s| s.ledger_residual),
+            Self::GeometryMass(_) => first.space.map(|s| s.geometry_mass_error),
+            Self::Change(_, _, name) => norm(first, name)
+                .zip(norm(runs[1], name))
+                .map(|(changed, plain)| changed / plain - 1.0),
             Self::Speed(_) => Some(first.particle_steps as f64 / first.cpu_seconds),
             Self::CpuSeconds(_) => Some(first.cpu_seconds),
         };

@@ -71,12 +71,15 @@ struct RunArgs {
     /// Density scheme, if not the preset's own
     #[arg(long, value_enum)]
     density: Option<DensityArg>,
-    /// Number of particles
+    /// Number of particles; in three dimensions, of cells across the smallest edge
     #[arg(long)]
     n: Option<usize>,
     /// Variant of the case
     #[arg(long, default_value = "")]
     variant: String,
+    /// Stop at this time, in the units of the scene, instead of the case's own
+    #[arg(long, value_name = "TIME", conflicts_with = "godunov")]
+    stop: Option<f64>,
     /// Change one value of the scene, such as heating=pair (repeatable)
     #[arg(long = "set", value_name = "KEY=VALUE")]
     sets: Vec<String>,

@@ -18,6 +18,7 @@ pub mod record;
 pub mod references;
 pub mod report;
 pub mod run;
+pub mod scene;
 pub mod space;
 pub mod suggest;
 pub mod suite;

@@ -1,8 +1,8 @@
 //! `--set KEY=VALUE`: changing one value of a scene by the name that its file gives it.
 
 use serde_json::Value;
-use whipple_solver::scene::Scene;
 
+use crate::scene::AnyScene;
 use crate::suggest::did_you_mean;
 
 /// Why a scene cannot be changed as asked.
@@ -42,8 +42,8 @@ pub enum OverrideError {
 ///
 /// # Errors
 /// The first override that names nothing or has a value of the wrong form. Whether the value makes
-/// sense is for [`Scene::validate`] to say.
-pub fn apply(scene: Scene, overrides: &[String]) -> Result<Scene, OverrideError> {
+/// sense is for [`AnyScene::validate`] to say.
+pub fn apply(scene: AnyScene, overrides: &[String]) -> Result<AnyScene, OverrideError> {
     let mut scene = scene;
     for text in overrides {
         scene = apply_one(&scene, text)?;
@@ -51,7 +51,7 @@ pub fn apply(scene: Scene, overrides: &[String]) -> Result<Scene, OverrideError>
     Ok(scene)
 }
 
-fn apply_one(scene: &Scene, text: &str) -> Result<Scene, OverrideError> {
+fn apply_one(scene: &AnyScene, text: &str) -> Result<AnyScene, OverrideError> {
     let Some((key, value)) = text.split_once('=') else {
         return Err(OverrideError::NoValue(text.to_owned()));
     };
@@ -65,7 +65,11 @@ fn apply_one(scene: &Scene, text: &str) -> Result<Scene, OverrideError> {
     *place(&mut tree, &path, key, value)? = parse(value).map_err(bad)?;
 
     // The JSON text of the value keeps the path of an error; the scene has no other route in.
-    serde_path_to_error::deserialize(tree).map_err(|e| {
+    let read = match scene {
+        AnyScene::Line(_) => serde_path_to_error::deserialize(tree).map(AnyScene::Line),
+        AnyScene::Space(_) => serde_path_to_error::deserialize(tree).map(AnyScene::Space),
+    };
+    read.map_err(|e| {
         let inner = e.inner().to_string();
         let words = [
             ("invalid type: ", "found "),
@@ -153,10 +157,25 @@ fn json(value: toml::Value) -> Result<Value, String> {
 mod tests {
     use super::*;
     use whipple_solver::method::{Heating, Preset};
+    use whipple_solver::scene::Scene;
 
     fn changed(set: &str) -> Result<Scene, String> {
         let scene = crate::cases::find("noh").expect("a case").scene(Preset::Default, "", 10);
-        apply(scene, &[set.to_owned()]).map_err(|e| e.to_string())
+        let changed = apply(scene, &[set.to_owned()]).map_err(|e| e.to_string())?;
+        Ok(changed.line().expect("a scene along a line").clone())
+    }
+
+    #[test]
+    fn scenes_in_space_are_changed_as_well() {
+        let scene =
+            || crate::cases::find("long-rod").expect("a case").scene(Preset::Default, "", 5);
+        let changed = |set: &str| apply(scene(), &[set.to_owned()]);
+        let scene_of =
+            |set: &str| changed(set).expect("it applies").space().cloned().expect("in space");
+        assert_eq!(scene_of("visc_linear=1.0").method.visc_linear, 1.0);
+        assert_eq!(scene_of("bodies.0.velocity.1=0.2").bodies[0].velocity[1], 0.2);
+        let refused = changed("heat_coef=1").expect_err("must be refused").to_string();
+        assert!(refused.contains("heat_coeff"), "{refused}");
     }
 
     #[test]

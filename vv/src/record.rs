@@ -10,8 +10,10 @@ use serde::{Deserialize, Serialize};
 use whipple_solver::audit::Ledger;
 use whipple_solver::counters::Counters;
 use whipple_solver::method::{Density, Preset};
-use whipple_solver::scene::Scene;
+use whipple_solver::space::ledger::Balance;
 use whipple_solver::timestep::Decided;
+
+use crate::scene::AnyScene;
 
 /// Version of the record format. A reader refuses any other.
 pub const SCHEMA: u32 = 1;
@@ -134,7 +136,7 @@ pub struct RunRecord {
     /// How it ended.
     pub outcome: Outcome,
     /// The frozen scene; absent for the Godunov code.
-    pub scene: Option<Scene>,
+    pub scene: Option<AnyScene>,
     /// Time steps.
     pub steps: u64,
     /// Particles advanced by a full step, or cells.
@@ -153,12 +155,42 @@ pub struct RunRecord {
     pub limiters: Option<Decided>,
     /// Final balance; absent for the Godunov code.
     pub ledger: Option<Ledger>,
+    /// What only runs in space have.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub space: Option<SpaceRecord>,
     /// Fields at the end, where a figure needs them.
     pub profile: Option<Series>,
     /// Histories, where a figure needs them.
     pub history: Option<Series>,
     /// Where the numbers come from.
     pub provenance: Provenance,
+}
+
+/// What a run in three dimensions leaves behind besides.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct SpaceRecord {
+    /// Particles of the scene, those at rest included.
+    pub particles: usize,
+    /// Elements of the scene.
+    pub elements: usize,
+    /// Elements that have failed.
+    pub failed_elements: usize,
+    /// Elements of them that are no volume any more.
+    pub dead_elements: usize,
+    /// Final balance of mass, momentum and energy.
+    pub balance: Balance,
+    /// Error of the mass of the bodies as they are meshed, over that of their shapes.
+    pub geometry_mass_error: f64,
+    /// Change of the mass over the run.
+    pub mass_error: f64,
+    /// Largest error of the angular momentum seen over the run, see [`Balance::angular_drift`].
+    pub angular_momentum_drift: f64,
+    /// The residual of the elements, see [`Balance::relative_residual`].
+    pub ledger_residual: f64,
+    /// Particles advanced by a full step, per CPU second.
+    pub updates_per_cpu_second: f64,
+    /// Memory of the solver over the particles.
+    pub bytes_per_particle: f64,
 }
 
 /// Where and by what a record was made.

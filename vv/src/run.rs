@@ -8,14 +8,20 @@ use whipple_solver::Solver;
 use whipple_solver::error::{SceneError, StepError};
 use whipple_solver::output::Snapshot;
 use whipple_solver::scene::Scene;
+use whipple_solver::space;
+use whipple_solver::space::ledger::Balance;
 
 use crate::cases::Case;
 use crate::godunov::GodunovError;
 use crate::norms::NormError;
-use crate::record::{Outcome, Provenance, RunKey, RunRecord, SCHEMA, Scheme, Series};
+use crate::record::{Outcome, Provenance, RunKey, RunRecord, SCHEMA, Scheme, Series, SpaceRecord};
+use crate::scene::AnyScene;
 
 /// Steps between two looks at the clock and the interrupt flag.
 const STEPS_PER_LOOK: u64 = 256;
+
+/// The same in three dimensions, where a step takes milliseconds.
+const STEPS_PER_SPACE_LOOK: u64 = 16;
 
 /// Why a run gave no record.
 #[derive(Debug, thiserror::Error)]
@@ -175,13 +181,91 @@ impl<'a> Driver<'a> {
     }
 }
 
+/// A solver in three dimensions with a clock.
+pub struct SpaceDriver<'a> {
+    solver: space::Simulation,
+    stop: f64,
+    monitor: &'a dyn Monitor,
+    cpu: Duration,
+    worst: Worst,
+}
+
+/// Largest errors of the balances that were looked at.
+#[derive(Debug, Clone, Copy, Default)]
+struct Worst {
+    energy: f64,
+    momentum: f64,
+    angular: f64,
+}
+
+impl<'a> SpaceDriver<'a> {
+    /// A driver at t = 0.
+    ///
+    /// # Errors
+    /// An invalid scene.
+    pub fn new(scene: &space::Scene, monitor: &'a dyn Monitor) -> Result<Self, SceneError> {
+        Ok(Self {
+            solver: space::Simulation::new(scene)?,
+            stop: scene.stop_time,
+            monitor,
+            cpu: Duration::ZERO,
+            worst: Worst::default(),
+        })
+    }
+
+    /// Steps to `time`, on the clock.
+    ///
+    /// # Errors
+    /// A numerical failure, or the user's interrupt.
+    pub fn advance_to(&mut self, time: f64) -> Result<(), RunError> {
+        let start = ProcessTime::now();
+        let result = self.steps_to(time);
+        self.cpu += start.elapsed();
+        result
+    }
+
+    fn steps_to(&mut self, time: f64) -> Result<(), RunError> {
+        while self.solver.time() < time {
+            self.solver.step(time)?;
+            let done = self.solver.counters();
+            if done.steps.is_multiple_of(STEPS_PER_SPACE_LOOK)
+                && !self.monitor.tick(self.solver.time(), self.stop, done.particle_steps)
+            {
+                return Err(RunError::Interrupted);
+            }
+        }
+        Ok(())
+    }
+
+    /// The balance now, off the clock; the record keeps the largest errors of those looked at.
+    pub fn balance(&mut self) -> Balance {
+        let balance = self.solver.balance();
+        // `max` would pass over NaN.
+        let keep = |worst: &mut f64, error: f64| {
+            if error > *worst || error.is_nan() {
+                *worst = error;
+            }
+        };
+        keep(&mut self.worst.energy, balance.energy_drift());
+        keep(&mut self.worst.momentum, balance.momentum_drift());
+        keep(&mut self.worst.angular, balance.angular_drift());
+        balance
+    }
+
+    /// The solver.
+    #[must_use]
+    pub fn solver(&self) -> &space::Simulation {
+        &self.solver
+    }
+}
+
 /// A request for a run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Request {
     /// Which run.
     pub key: RunKey,
     /// The scene, overrides included; absent for the Godunov code.
-    pub scene: Option<Scene>,
+    pub scene: Option<AnyScene>,
     /// Threads.
     pub threads: usize,
     /// The command that repeats it.
@@ -217,12 +301,14 @@ pub fn run(case: &dyn Case, request: Request, monitor: &dyn Monitor) -> Result<R
         counters: None,
         limiters: None,
         ledger: None,
+        space: None,
         profile: None,
         history: None,
         provenance: Provenance::here(command),
     };
     match scene {
-        Some(scene) => particles(case, scene, record, monitor),
+        Some(AnyScene::Line(scene)) => line(case, scene, record, monitor),
+        Some(AnyScene::Space(scene)) => in_space(case, scene, record, monitor),
         None => {
             debug_assert_eq!(record.key.scheme, Scheme::Godunov);
             let start = ProcessTime::now();
@@ -237,7 +323,7 @@ pub fn run(case: &dyn Case, request: Request, monitor: &dyn Monitor) -> Result<R
     }
 }
 
-fn particles(
+fn line(
     case: &dyn Case,
     scene: Scene,
     mut record: RunRecord,
@@ -267,8 +353,61 @@ fn particles(
     record.counters = Some(counters);
     record.limiters = Some(solver.decided());
     record.ledger = Some(ledger);
-    record.scene = Some(scene);
+    record.scene = Some(scene.into());
     Ok(Run { record, failure })
+}
+
+fn in_space(
+    case: &dyn Case,
+    scene: space::Scene,
+    mut record: RunRecord,
+    monitor: &dyn Monitor,
+) -> Result<Run, RunError> {
+    let mut driver = SpaceDriver::new(&scene, monitor)?;
+    let mut failure = None;
+    match case.measure_space(&scene, &record.key, &mut driver) {
+        Ok(findings) => fill(&mut record, findings),
+        Err(RunError::Step(error)) => {
+            record.outcome =
+                Outcome::Failed { kind: error.kind().into(), message: error.to_string() };
+            failure = Some(error);
+        }
+        Err(other) => return Err(other),
+    }
+    let balance = driver.balance();
+    let solver = driver.solver();
+    let (counters, (failed_elements, dead_elements)) = (solver.counters(), solver.failed());
+    record.steps = counters.steps;
+    record.particle_steps = counters.particle_steps;
+    record.cpu_seconds = driver.cpu.as_secs_f64();
+    record.energy_drift = driver.worst.energy;
+    record.momentum_drift = driver.worst.momentum;
+    record.counters = Some(counters);
+    record.space = Some(SpaceRecord {
+        particles: solver.particles(),
+        elements: solver.elements(),
+        failed_elements,
+        dead_elements,
+        balance,
+        geometry_mass_error: geometry_mass_error(&scene, solver),
+        mass_error: balance.mass_error(),
+        angular_momentum_drift: driver.worst.angular,
+        ledger_residual: balance.relative_residual(),
+        updates_per_cpu_second: counters.particle_steps as f64 / record.cpu_seconds,
+        bytes_per_particle: solver.bytes() as f64 / solver.particles() as f64,
+    });
+    record.scene = Some(scene.into());
+    Ok(Run { record, failure })
+}
+
+/// Largest error of the mass of a body as it is meshed, over that of its shape.
+fn geometry_mass_error(scene: &space::Scene, solver: &space::Simulation) -> f64 {
+    let holdings = solver.holdings();
+    let errors = scene.bodies.iter().zip(&holdings).filter_map(|(body, held)| {
+        let material = &scene.materials[scene.material_index(&body.material)?];
+        Some((held.mass / (material.density * body.shape.volume()) - 1.0).abs())
+    });
+    errors.fold(0.0, f64::max)
 }
 
 fn fill(record: &mut RunRecord, findings: Findings) {

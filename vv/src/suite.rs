@@ -3,13 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use whipple_solver::method::Preset;
-use whipple_solver::scene::Scene;
 
 use crate::cases::{Case, Level};
 use crate::claims::{Verdict, judge};
 use crate::files::{FileError, ensure_writable_dir, write_atomic};
 use crate::record::{RecordError, Records, RunKey, RunRecord, Scheme};
 use crate::run::{Monitor, Request, RunError, run};
+use crate::scene::AnyScene;
 
 /// Folder of the records inside a report folder.
 const RECORDS: &str = "records";
@@ -49,14 +49,14 @@ pub fn records_folder(report: &Path) -> PathBuf {
 
 /// The scene of a run, overrides apart.
 #[must_use]
-pub fn scene_of(case: &dyn Case, key: &RunKey) -> Option<Scene> {
+pub fn scene_of(case: &dyn Case, key: &RunKey) -> Option<AnyScene> {
     let Scheme::Particles { preset, density } = key.scheme else {
         return None;
     };
     let mut scene = case.scene(preset, &key.variant, key.n);
     // A variant may choose a density of its own; a scheme that differs from the preset's wins.
     if density != preset.method().density {
-        scene.method.density = density;
+        scene.set_density(density);
     }
     Some(scene)
 }

@@ -13,6 +13,7 @@ use crate::exact::collision::{Block, collide};
 use crate::plots::{Axis, Figure, Layer, Panel, Series as Curve};
 use crate::record::{Records, RunKey, Scheme, Series};
 use crate::run::{Driver, Findings, RunError};
+use crate::scene::AnyScene;
 
 /// The case.
 pub(super) struct BlockCollision;
@@ -61,7 +62,7 @@ impl Case for BlockCollision {
         200
     }
 
-    fn scene(&self, preset: Preset, _: &str, n: usize) -> Scene {
+    fn scene(&self, preset: Preset, _: &str, n: usize) -> AnyScene {
         let mut method = preset.method();
         method.conduction = Conduction::None;
         let speed = MACH * wave_speed();
@@ -89,6 +90,7 @@ impl Case for BlockCollision {
             }],
             bodies: vec![body(0.0, n / 2, speed), body(LENGTH + GAP, n - n / 2, 0.0)],
         }
+        .into()
     }
 
     fn measure(

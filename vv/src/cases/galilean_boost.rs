@@ -10,6 +10,7 @@ use super::{
 use crate::plots::Figure;
 use crate::record::{Records, RunKey, Scheme};
 use crate::run::{Driver, Findings, RunError};
+use crate::scene::AnyScene;
 
 /// The case.
 pub(super) struct GalileanBoost;
@@ -61,8 +62,8 @@ impl Case for GalileanBoost {
         SIZE
     }
 
-    fn scene(&self, preset: Preset, variant: &str, n: usize) -> Scene {
-        scene_at(boost(variant), preset, n)
+    fn scene(&self, preset: Preset, variant: &str, n: usize) -> AnyScene {
+        scene_at(boost(variant), preset, n).into()
     }
 
     fn measure(

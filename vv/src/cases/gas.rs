@@ -14,6 +14,7 @@ use crate::norms;
 use crate::plots::{Axis, Figure, Layer, Panel, Series as Curve};
 use crate::record::{Records, RunKey, Scheme, Series};
 use crate::run::{Driver, Findings, RunError};
+use crate::scene::AnyScene;
 
 /// Time-step factor of the Godunov code.
 const GODUNOV_CFL: f64 = 0.5;
@@ -273,9 +274,9 @@ impl Case for GasProblem {
         self.sizes.drawn
     }
 
-    fn scene(&self, preset: Preset, variant: &str, n: usize) -> Scene {
+    fn scene(&self, preset: Preset, variant: &str, n: usize) -> AnyScene {
         match (self.setup)(variant) {
-            Ok(setup) => setup.scene(self.id, preset, n),
+            Ok(setup) => setup.scene(self.id, preset, n).into(),
             // Setups are constants of this crate; a test builds every one.
             Err(error) => unreachable!("{}: {error}", self.id),
         }

@@ -13,6 +13,7 @@ use crate::exact::heat::CosineMode;
 use crate::plots::{Axis, Figure, Layer, Panel, Series as Curve};
 use crate::record::{Records, RunKey, Scheme, Series};
 use crate::run::{Driver, Findings, RunError};
+use crate::scene::AnyScene;
 
 /// The case.
 pub(super) struct HeatChain;
@@ -57,7 +58,7 @@ impl Case for HeatChain {
         32
     }
 
-    fn scene(&self, preset: Preset, _: &str, n: usize) -> Scene {
+    fn scene(&self, preset: Preset, _: &str, n: usize) -> AnyScene {
         let mut method = preset.method();
         method.conduction = Conduction::Linear;
         method.heat_coeff = HEAT;
@@ -84,6 +85,7 @@ impl Case for HeatChain {
                 energy: Profile::Cosine { mean: 1.0, amplitude: AMPLITUDE, mode: f64::from(MODE) },
             }],
         }
+        .into()
     }
 
     fn measure(

@@ -14,6 +14,7 @@ use crate::norms;
 use crate::plots::{Axis, Figure, Layer, Panel, Series as Curve};
 use crate::record::{Records, RunKey, RunRecord, Scheme, Series};
 use crate::run::{Driver, Findings, RunError};
+use crate::scene::AnyScene;
 
 /// The case.
 pub(super) struct Kolsky;
@@ -95,7 +96,7 @@ impl Case for Kolsky {
         DRAWN[1]
     }
 
-    fn scene(&self, preset: Preset, variant: &str, n: usize) -> Scene {
+    fn scene(&self, preset: Preset, variant: &str, n: usize) -> AnyScene {
         let mut method = preset.method();
         // Table 3 lists no conduction, and the linear solid does not feel its temperature.
         method.conduction = Conduction::None;
@@ -124,6 +125,7 @@ impl Case for Kolsky {
                 energy: Profile::Uniform(0.0),
             }],
         }
+        .into()
     }
 
     fn measure(

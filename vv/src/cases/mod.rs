@@ -10,7 +10,9 @@ mod gas;
 mod heat_chain;
 mod kolsky;
 mod leblanc;
+mod long_rod;
 mod noh;
+mod planar_impact;
 mod sod;
 mod strong_shock_tube;
 mod two_stream_noh;
@@ -23,12 +25,14 @@ use std::time::Duration;
 
 use whipple_solver::method::Preset;
 use whipple_solver::scene::Scene;
+use whipple_solver::space;
 
 use crate::claims::{Claim, Kind, Quantity, Wanted, Weight};
 use crate::plots::Figure;
 use crate::record::{Records, RunKey, Scheme};
 use crate::report::Table;
-use crate::run::{Driver, Findings, RunError};
+use crate::run::{Driver, Findings, RunError, SpaceDriver};
+use crate::scene::AnyScene;
 
 /// How much is run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, clap::ValueEnum)]
@@ -79,18 +83,33 @@ pub trait Case: Sync {
     fn default_size(&self) -> usize;
 
     /// The problem with the choices of a preset.
-    fn scene(&self, preset: Preset, variant: &str, n: usize) -> Scene;
+    fn scene(&self, preset: Preset, variant: &str, n: usize) -> AnyScene;
 
-    /// Runs the scene to its end and measures.
+    /// Runs a scene along a line to its end and measures.
     ///
     /// # Errors
     /// A numerical failure, an interrupt, or a norm that is not a number.
     fn measure(
         &self,
-        scene: &Scene,
-        key: &RunKey,
-        driver: &mut Driver<'_>,
-    ) -> Result<Findings, RunError>;
+        _scene: &Scene,
+        _key: &RunKey,
+        _driver: &mut Driver<'_>,
+    ) -> Result<Findings, RunError> {
+        Err(RunError::NotThere { case: self.id().into(), what: "along a line".into() })
+    }
+
+    /// Runs a scene in space to its end and measures.
+    ///
+    /// # Errors
+    /// A numerical failure, an interrupt, or a norm that is not a number.
+    fn measure_space(
+        &self,
+        _scene: &space::Scene,
+        _key: &RunKey,
+        _driver: &mut SpaceDriver<'_>,
+    ) -> Result<Findings, RunError> {
+        Err(RunError::NotThere { case: self.id().into(), what: "in space".into() })
+    }
 
     /// The second opinion of the Godunov code.
     ///
@@ -130,7 +149,7 @@ pub trait Case: Sync {
 }
 
 /// All cases, in the order of the report.
-pub const ALL: [&dyn Case; 14] = [
+pub const ALL: [&dyn Case; 16] = [
     &noh::Noh,
     &kolsky::Kolsky,
     &uniform_collapse::CASE,
@@ -145,6 +164,8 @@ pub const ALL: [&dyn Case; 14] = [
     &galilean_boost::GalileanBoost,
     &block_collision::BlockCollision,
     &heat_chain::HeatChain,
+    &planar_impact::PlanarImpact,
+    &long_rod::LongRod,
 ];
 
 /// The case of a name.
@@ -213,4 +234,18 @@ fn conservation(case: &'static str, key: &RunKey) -> Vec<Claim> {
 /// The default preset with the kernel density.
 fn kernel_default() -> Scheme {
     Scheme::Particles { preset: Preset::Default, density: whipple_solver::method::Density::Kernel }
+}
+
+/// What every run in three dimensions keeps: energy with the residual of the elements booked,
+/// momentum and angular momentum with what walls give.
+fn conservation_in_space(case: &'static str, key: &RunKey) -> Vec<Claim> {
+    let mut out = conservation(case, key);
+    let source = "round-off; pair forces are opposite and central, element forces without moment";
+    let must = Claims::new(case, Kind::Verification, Weight::Must, source);
+    out.push(must.claim(
+        "angular momentum drift over the run",
+        Quantity::AngularDrift(key.clone()),
+        Wanted::AtMost(1e-12),
+    ));
+    out
 }

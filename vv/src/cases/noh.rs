@@ -22,6 +22,7 @@ use crate::plots::{Axis, Figure, Layer, Panel, Series as Curve};
 use crate::record::{Records, RunKey, Scheme, Series};
 use crate::report::{Cell, Column, Table};
 use crate::run::{Driver, Findings, RunError};
+use crate::scene::AnyScene;
 
 /// The case.
 pub(super) struct Noh;
@@ -255,7 +256,7 @@ impl Case for Noh {
         DRAWN
     }
 
-    fn scene(&self, preset: Preset, variant: &str, n: usize) -> Scene {
+    fn scene(&self, preset: Preset, variant: &str, n: usize) -> AnyScene {
         let eos =
             EosData::IdealGas { adiabatic_index: GAMMA, c_v: 1.0, u_0: U_0, theta_0: THETA_0 };
         Scene {
@@ -277,6 +278,7 @@ impl Case for Noh {
                 energy: Profile::Uniform(U_0),
             }],
         }
+        .into()
     }
 
     fn measure(

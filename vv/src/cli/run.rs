@@ -14,6 +14,7 @@ use crate::overrides;
 use crate::record::{Outcome, RunKey, RunRecord, Scheme, Series};
 use crate::report::sig;
 use crate::run::{Request, run as run_case};
+use crate::scene::AnyScene;
 use crate::suggest::did_you_mean;
 use crate::suite::{command_of, scene_of, write_record};
 
@@ -38,7 +39,47 @@ struct Summary<'a> {
     norms: &'a BTreeMap<String, f64>,
     counters: Option<whipple_solver::counters::Counters>,
     limiters: Option<whipple_solver::timestep::Decided>,
+    #[serde(flatten)]
+    space: Option<SpaceSummary>,
     provenance: &'a crate::record::Provenance,
+}
+
+/// What it prints of a run in three dimensions besides.
+#[derive(Serialize)]
+struct SpaceSummary {
+    particles: usize,
+    elements: usize,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    residual_length_cm: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    residual_velocity_km_s: Option<f64>,
+    mass_error: f64,
+    geometry_mass_error: f64,
+    angular_momentum_drift: f64,
+    ledger_residual: f64,
+    failed_elements: usize,
+    updates_per_cpu_second: f64,
+    bytes_per_particle: f64,
+}
+
+impl SpaceSummary {
+    fn new(record: &RunRecord) -> Option<Self> {
+        let space = record.space?;
+        let norm = |name: &str| record.norms.get(name).copied();
+        Some(Self {
+            particles: space.particles,
+            elements: space.elements,
+            residual_length_cm: norm("residual_length_cm"),
+            residual_velocity_km_s: norm("residual_velocity_km_s"),
+            mass_error: space.mass_error,
+            geometry_mass_error: space.geometry_mass_error,
+            angular_momentum_drift: space.angular_momentum_drift,
+            ledger_residual: space.ledger_residual,
+            failed_elements: space.failed_elements,
+            updates_per_cpu_second: space.updates_per_cpu_second,
+            bytes_per_particle: space.bytes_per_particle,
+        })
+    }
 }
 
 /// Runs a case as the arguments say.
@@ -109,11 +150,17 @@ fn request(case: &dyn Case, args: &RunArgs) -> Result<Request, Failure> {
         .map(|scene| overrides::apply(scene, &args.sets))
         .transpose()
         .map_err(Failure::usage)?;
+    let scene = scene.map(|mut scene| {
+        if let Some(time) = args.stop {
+            scene.set_stop_time(time);
+        }
+        scene
+    });
     if let (Some(scene), Some(plain)) = (&scene, &plain) {
-        key.n = scene.particles();
-        let same_problem = (&scene.materials, &scene.bodies, scene.boundaries, scene.stop_time)
-            == (&plain.materials, &plain.bodies, plain.boundaries, plain.stop_time);
-        if !same_problem {
+        if let AnyScene::Line(scene) = scene {
+            key.n = scene.particles();
+        }
+        if !scene.same_problem(plain) {
             say(
                 "note: the problem was changed, the norms still compare with the answer to the case",
             );
@@ -127,6 +174,9 @@ fn request(case: &dyn Case, args: &RunArgs) -> Result<Request, Failure> {
         })?;
     }
     let mut command = command_of(&key);
+    if let Some(time) = args.stop {
+        command += &format!(" --stop {time}");
+    }
     for set in &args.sets {
         command += &format!(" --set {set}");
     }
@@ -154,6 +204,7 @@ fn json(record: &RunRecord) -> Result<String, Failure> {
         norms: &record.norms,
         counters: record.counters,
         limiters: record.limiters,
+        space: SpaceSummary::new(record),
         provenance: &record.provenance,
     };
     let text = serde_json::to_string_pretty(&summary).map_err(Failure::usage)?;
@@ -169,6 +220,16 @@ fn text(case: &dyn Case, record: &RunRecord) -> String {
     }
     row("energy drift", sig(record.energy_drift, 2));
     row("momentum drift", sig(record.momentum_drift, 2));
+    if let Some(space) = &record.space {
+        row("angular momentum drift", sig(space.angular_momentum_drift, 2));
+        row("residual of elements", sig(space.ledger_residual, 2));
+        row("error of the meshed mass", sig(space.geometry_mass_error, 2));
+        row("particles", space.particles.to_string());
+        row("elements", space.elements.to_string());
+        row("failed elements", space.failed_elements.to_string());
+        row("updates per CPU second", sig(space.updates_per_cpu_second, 3));
+        row("bytes per particle", sig(space.bytes_per_particle, 3));
+    }
     row("steps", record.steps.to_string());
     row("particle-steps", record.particle_steps.to_string());
     row("CPU seconds", sig(record.cpu_seconds, 3));

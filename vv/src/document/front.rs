@@ -283,14 +283,14 @@ pub(super) fn cost(records: &Records) -> Section {
             Cell::number(1e-6 * r.particle_steps as f64 / r.cpu_seconds, 3),
         ];
         match r.counters {
-            Some(c) => {
+            Some(c) if c.stages > 0 => {
                 let stages = c.stages as f64;
                 row.push(Cell::number(c.sweeps as f64 / stages, 3));
                 row.push(Cell::number(c.pairs as f64 / stages / r.key.n as f64, 3));
                 let steps = c.particle_steps as f64;
                 row.push(Cell::number(c.kernel_evaluations as f64 / steps, 3));
             }
-            None => row.extend(["–", "–", "–"].map(Cell::text)),
+            _ => row.extend(["–", "–", "–"].map(Cell::text)),
         }
         row
     });

@@ -154,7 +154,7 @@ fn results_are_written() {
     };
     let record: whipple_vv::record::RunRecord =
         serde_json::from_str(&read("record.json")).expect("a record");
-    let scene: whipple_solver::scene::Scene = toml::from_str(&read("scene.toml")).expect("a scene");
+    let scene: whipple_vv::scene::AnyScene = toml::from_str(&read("scene.toml")).expect("a scene");
     assert_eq!(Some(scene), record.scene);
     let fields = read("profile.csv");
     let head = fields.lines().next().expect("a head").to_owned();

@@ -1,0 +1,460 @@
+//! Planar impact of metals in three dimensions, against their shock Hugoniots.
+
+use std::fmt::Write as _;
+
+use whipple_solver::method::Preset;
+use whipple_solver::space::Simulation;
+use whipple_solver::space::scene::{
+    Body, EosData, Failure, GammaLaw, Hold, Material, Scene, Shape, Side, Turn, Wall,
+};
+use whipple_solver::units::Units;
+
+use super::{Case, Claim, Claims, Kind, Level, Quantity, Wanted, Weight};
+use crate::exact::hugoniot::{Hugoniot, PlanarImpact as Exact};
+use crate::plots::{Axis, Figure, Layer, Panel, Series as Curve};
+use crate::record::{Records, RunKey, Scheme, Series};
+use crate::run::{Findings, RunError, SpaceDriver};
+use crate::scene::AnyScene;
+
+/// The case.
+pub(super) struct PlanarImpact;
+
+const ID: &str = "planar-impact";
+/// Length of the column in cm.
+const LENGTH: f64 = 8.0;
+/// Cells across the column.
+const ACROSS: usize = 4;
+/// Random part of the velocities over the velocity: a test of stability.
+const NOISE: f64 = 0.005;
+/// Cells left out beside the wall and behind the front.
+const MARGIN: f64 = 8.0;
+/// Part of the column that the faster shock runs through.
+const RUN: f64 = 0.75;
+/// Times at which the front is located.
+const LOOKS: usize = 20;
+/// Cells along the column.
+const SIZES: [usize; 3] = [40, 80, 160];
+/// Closing speeds in km/s.
+const SPEEDS: [&str; 5] = ["0.5", "1", "2", "4", "7"];
+/// The first runs when none is named: copper at 1 km/s.
+const VARIANTS: [&str; 15] = [
+    "",
+    "cu-0.5",
+    "cu-2",
+    "cu-4",
+    "cu-7",
+    "al-0.5",
+    "al-1",
+    "al-2",
+    "al-4",
+    "al-7",
+    "w-steel-0.5",
+    "w-steel-1",
+    "w-steel-2",
+    "w-steel-4",
+    "w-steel-7",
+];
+/// Variants whose claims were looked at when the viscosity was chosen (decision 0012).
+const IN_SAMPLE: &str = "cu";
+
+/// A metal as `references/materials.toml` has it: density, `c0`, `s`, Grueneisen's constant, `c_v`.
+struct Metal {
+    name: &'static str,
+    constants: [f64; 5],
+}
+
+const COPPER: Metal = Metal { name: "copper", constants: [8.93, 0.394, 1.489, 2.02, 0.383e-5] };
+const ALUMINIUM: Metal =
+    Metal { name: "aluminium", constants: [2.70, 0.5386, 1.339, 1.97, 0.884e-5] };
+const TUNGSTEN: Metal =
+    Metal { name: "tungsten alloy", constants: [17.6, 0.403, 1.237, 1.67, 0.143e-5] };
+const STEEL: Metal = Metal { name: "steel", constants: [7.87, 0.4578, 1.33, 1.67, 0.448e-5] };
+
+impl Metal {
+    fn material(&self) -> Material {
+        let [density, c0, s, gamma_0, c_v] = self.constants;
+        let law = GammaLaw::ConstantProduct;
+        Material {
+            name: self.name.into(),
+            density,
+            eos: EosData::MieGruneisen { c0, s, gamma_0, law, c_v, theta_0: 300.0 },
+            strength: None,
+            failure: Failure::default(),
+        }
+    }
+
+    fn hugoniot(&self) -> Result<Hugoniot, RunError> {
+        let [density, c0, s, ..] = self.constants;
+        Ok(Hugoniot::new(density, c0, s)?)
+    }
+}
+
+/// What hits what.
+struct Shot {
+    impactor: &'static Metal,
+    target: &'static Metal,
+    /// Closing speed in cm/us.
+    speed: f64,
+}
+
+impl Shot {
+    /// Of a variant; the plain one for a name that is none.
+    fn of(variant: &str) -> Self {
+        let (metals, speed) = variant.rsplit_once('-').unwrap_or(("cu", "1"));
+        let (impactor, target) = match metals {
+            "al" => (&ALUMINIUM, &ALUMINIUM),
+            "w-steel" => (&TUNGSTEN, &STEEL),
+            _ => (&COPPER, &COPPER),
+        };
+        Self { impactor, target, speed: 0.1 * speed.parse().unwrap_or(1.0) }
+    }
+
+    /// Alike, they meet at a mirror.
+    fn symmetric(&self) -> bool {
+        self.impactor.name == self.target.name
+    }
+
+    fn exact(&self) -> Result<Exact, RunError> {
+        let (impactor, target) = (self.impactor.hugoniot()?, self.target.hugoniot()?);
+        Ok(Exact::new(&impactor, &target, self.speed)?)
+    }
+}
+
+/// Sums over the particles of one plane of the undeformed lattice.
+#[derive(Clone, Copy, Default)]
+struct Plane {
+    /// Distance from the impact plane before the impact.
+    place: f64,
+    count: f64,
+    pressure: f64,
+    density: f64,
+}
+
+/// Planes of a body, the nearest to the impact first.
+struct Planes {
+    spacing: f64,
+    /// Plane of every particle of the body.
+    of: Vec<(u32, usize)>,
+    count: usize,
+}
+
+impl Planes {
+    /// Planes of a body whose face towards the impact is at x = `face`.
+    fn new(simulation: &Simulation, body: usize, face: f64) -> Self {
+        // Nodes and centroids alternate.
+        let spacing = 0.5 * simulation.sizes(body).1[0];
+        let of: Vec<(u32, usize)> = simulation
+            .all_particles()
+            .filter(|p| p.body == body)
+            .map(|p| (p.id, ((p.position[0] - face).abs() / spacing).round() as usize))
+            .collect();
+        let count = of.iter().map(|(_, k)| k + 1).max().unwrap_or(0);
+        Self { spacing, of, count }
+    }
+
+    fn look(&self, simulation: &Simulation) -> Vec<Plane> {
+        let mut layers = vec![Plane::default(); self.count];
+        for (k, layer) in layers.iter_mut().enumerate() {
+            layer.place = k as f64 * self.spacing;
+        }
+        for &(id, k) in &self.of {
+            let p = simulation.particle(id);
+            layers[k].count += 1.0;
+            layers[k].pressure += p.pressure;
+            layers[k].density += p.rho;
+        }
+        for layer in &mut layers {
+            layer.pressure /= layer.count;
+            layer.density /= layer.count;
+        }
+        layers
+    }
+
+    /// Pressures of particles that passed the front some time ago, away from the impact plane.
+    fn shocked(&self, simulation: &Simulation, front: f64) -> Vec<f64> {
+        let margin = MARGIN * 2.0 * self.spacing;
+        let inside = |k: usize| {
+            let place = k as f64 * self.spacing;
+            place > margin && place < front - margin
+        };
+        let of = self.of.iter().filter(|(_, k)| inside(*k));
+        of.map(|(id, _)| simulation.pressure(*id as usize)).collect()
+    }
+}
+
+/// Where the mean pressure of the planes falls below half of `pressure`, the farthest from the impact.
+fn front_of(layers: &[Plane], pressure: f64) -> Option<f64> {
+    let half = 0.5 * pressure;
+    let (a, b) = layers
+        .windows(2)
+        .map(|w| (w[0], w[1]))
+        .rfind(|(a, b)| a.pressure >= half && b.pressure < half)?;
+    let share = (a.pressure - half) / (a.pressure - b.pressure);
+    Some(a.place + share * (b.place - a.place))
+}
+
+/// Slope of a straight line through points.
+fn slope(points: &[(f64, f64)]) -> f64 {
+    let n = points.len() as f64;
+    let (x, y) = points.iter().fold((0.0, 0.0), |(x, y), p| (x + p.0 / n, y + p.1 / n));
+    let (xy, xx) = points
+        .iter()
+        .fold((0.0, 0.0), |(xy, xx), p| (xy + (p.0 - x) * (p.1 - y), xx + (p.0 - x) * (p.0 - x)));
+    xy / xx
+}
+
+impl Case for PlanarImpact {
+    fn id(&self) -> &'static str {
+        ID
+    }
+
+    fn title(&self) -> &'static str {
+        "Planar impact in three dimensions"
+    }
+
+    fn about(&self) -> &'static str {
+        "A column of 8 cm, four cells across between mirrors, hits its mirror image: the shock must \
+         have the pressure and the speed of the Hugoniot, and be quiet behind the front although the \
+         initial velocities carry 0.5 % noise. Copper, aluminium, and tungsten alloy on steel as two \
+         bodies in contact, at closing speeds from 0.5 to 7 km/s, without strength. Pressure is \
+         averaged from 8 cells off the impact plane to 8 cells behind the front; the speed is the \
+         slope of the place of half the pressure over the second half of the run, in the undeformed \
+         column. n counts the cells along the column."
+    }
+
+    fn source(&self) -> &'static str {
+        "jump conditions with Us = c0 + s up; constants of `references/materials.toml`"
+    }
+
+    fn variants(&self) -> &'static [&'static str] {
+        &VARIANTS
+    }
+
+    fn default_size(&self) -> usize {
+        SIZES[1]
+    }
+
+    fn scene(&self, preset: Preset, variant: &str, n: usize) -> AnyScene {
+        let shot = Shot::of(variant);
+        let edge = LENGTH / n as f64;
+        let width = ACROSS as f64 * edge;
+        let mut walls = Vec::new();
+        for axis in 1..3 {
+            for (position, material) in [(-0.5 * width, Side::Above), (0.5 * width, Side::Below)] {
+                walls.push(Wall { axis, position, material, hold: Hold::Mirror });
+            }
+        }
+        let body = |metal: &Metal, centre: f64, velocity: f64| Body {
+            name: metal.name.into(),
+            material: metal.name.into(),
+            shape: Shape::Box { size: [LENGTH, width, width] },
+            cells: [n, ACROSS, ACROSS],
+            centre: [centre, 0.0, 0.0],
+            turn: Turn::default(),
+            velocity: [velocity, 0.0, 0.0],
+            spin: [0.0; 3],
+            energy: 0.0,
+            noise: NOISE * 0.5 * shot.speed,
+        };
+        let (materials, bodies) = if shot.symmetric() {
+            let (axis, material) = (0, Side::Above);
+            walls.push(Wall { axis, position: 0.0, material, hold: Hold::Mirror });
+            let body = body(shot.impactor, 0.5 * LENGTH, -0.5 * shot.speed);
+            (vec![shot.impactor.material()], vec![body])
+        } else {
+            let materials = vec![shot.impactor.material(), shot.target.material()];
+            // Contacts begin at about a cell's edge.
+            let from = -0.5 * LENGTH - edge;
+            let bodies =
+                vec![body(shot.impactor, from, shot.speed), body(shot.target, 0.5 * LENGTH, 0.0)];
+            (materials, bodies)
+        };
+        // Only constants of this file come here; a test builds every scene.
+        let fastest = shot
+            .exact()
+            .map_or(1.0, |exact| exact.impactor.shock_speed.max(exact.target.shock_speed));
+        Scene {
+            name: ID.into(),
+            units: Units::CmGUsMbar,
+            stop_time: RUN * LENGTH / fastest,
+            method: preset.space(),
+            walls,
+            materials,
+            bodies,
+        }
+        .into()
+    }
+
+    fn measure_space(
+        &self,
+        scene: &Scene,
+        key: &RunKey,
+        driver: &mut SpaceDriver<'_>,
+    ) -> Result<Findings, RunError> {
+        let shot = Shot::of(&key.variant);
+        let exact = shot.exact()?;
+        let last = scene.bodies.len() - 1;
+        let target = Planes::new(driver.solver(), last, 0.0);
+        let edge = LENGTH / key.n as f64;
+        let impactor = (last > 0).then(|| Planes::new(driver.solver(), 0, -edge));
+        let state = exact.target;
+
+        let mut seen = Vec::new();
+        for k in 0..=LOOKS {
+            driver.advance_to(scene.stop_time * (0.5 + 0.5 * k as f64 / LOOKS as f64))?;
+            driver.balance();
+            let layers = target.look(driver.solver());
+            if let Some(place) = front_of(&layers, state.pressure) {
+                seen.push((driver.solver().time(), place));
+            }
+        }
+        let layers = target.look(driver.solver());
+        let front = seen.last().map_or(f64::NAN, |p| p.1);
+
+        let mut findings = Findings::default();
+        let mut enter = |name: &str, value: f64| findings.norms.insert(name.into(), value);
+        let shock = slope(&seen);
+        enter("shock_speed", 10.0 * shock);
+        enter("shock_speed_error", shock / state.shock_speed - 1.0);
+        let pressures = target.shocked(driver.solver(), front);
+        let (mean, rms) = moments(&pressures);
+        enter("pressure_error", mean / state.pressure - 1.0);
+        enter("noise", rms / state.pressure);
+        let misfit = |l: &Plane| {
+            let exact = if l.place < front { state.pressure } else { 0.0 };
+            (l.pressure - exact).abs() / state.pressure
+        };
+        let l1 = layers.iter().map(misfit).sum::<f64>() / layers.len() as f64;
+        enter("pressure_l1", l1);
+        if let Some(planes) = impactor {
+            let layers = planes.look(driver.solver());
+            let front = front_of(&layers, state.pressure).unwrap_or(f64::NAN);
+            let (mean, rms) = moments(&planes.shocked(driver.solver(), front));
+            enter("pressure_error_impactor", mean / state.pressure - 1.0);
+            enter("noise_impactor", rms / state.pressure);
+        }
+        let mut series = Series::default();
+        series.0.insert("place".into(), layers.iter().map(|l| l.place).collect());
+        series.0.insert("pressure".into(), layers.iter().map(|l| l.pressure).collect());
+        series.0.insert("density".into(), layers.iter().map(|l| l.density).collect());
+        findings.profile = Some(series);
+        Ok(findings)
+    }
+
+    fn runs(&self, level: Level) -> Vec<RunKey> {
+        let default = |n| RunKey::new(ID, Scheme::preset(Preset::Default), n);
+        let mut keys: Vec<RunKey> = VARIANTS.iter().map(|v| default(SIZES[1]).variant(v)).collect();
+        keys.extend([SIZES[0], SIZES[2]].map(default));
+        if level >= Level::Standard {
+            let paper = RunKey::new(ID, Scheme::preset(Preset::Paper), SIZES[1]);
+            keys.extend(VARIANTS[..5].iter().map(|v| paper.clone().variant(v)));
+        }
+        keys
+    }
+
+    fn claims(&self) -> Vec<Claim> {
+        let must = Claims::new(
+            ID,
+            Kind::Verification,
+            Weight::Must,
+            "issue; jump conditions; one set of viscosity constants for all",
+        );
+        let mut out = Vec::new();
+        let key = |v: &str| RunKey::new(ID, Scheme::preset(Preset::Default), SIZES[1]).variant(v);
+        for variant in VARIANTS {
+            let (metals, speed) = variant.rsplit_once('-').unwrap_or(("cu", "1"));
+            let claims = if metals == IN_SAMPLE { must.in_sample() } else { must };
+            let aims = Claims { weight: Weight::Aim, ..claims };
+            let (wide, noise) = match speed {
+                "7" => (0.03, 0.04),
+                "4" => (0.01, 0.04),
+                _ => (0.01, 0.01),
+            };
+            let norm = |name| Quantity::Norm(key(variant), name);
+            let what = |text: &str| format!("{metals}, {speed} km/s: {text}");
+            let quantities = [
+                ("pressure_error", "pressure, error"),
+                ("shock_speed_error", "shock speed, error"),
+            ];
+            for (name, text) in quantities {
+                out.push(claims.claim(what(text), norm(name), Wanted::WithinZero(wide)));
+                if wide > 0.01 {
+                    out.push(aims.claim(what(text), norm(name), Wanted::WithinZero(0.01)));
+                }
+            }
+            out.push(claims.claim(
+                what("noise behind the front, rms over the pressure"),
+                norm("noise"),
+                Wanted::AtMost(noise),
+            ));
+            if noise > 0.01 {
+                let what = what("noise behind the front, rms over the pressure");
+                out.push(aims.claim(what, norm("noise"), Wanted::AtMost(0.01)));
+            }
+            out.extend(super::conservation_in_space(ID, &key(variant)));
+        }
+        let keys = SIZES.map(|n| RunKey::new(ID, Scheme::preset(Preset::Default), n));
+        let order = Claims { source: "the front keeps its number of cells", ..must };
+        out.push(order.claim(
+            "order of the L1 error of the pressure, copper at 1 km/s",
+            Quantity::Order(keys.to_vec(), "pressure_l1"),
+            Wanted::Around(1.0, 0.25),
+        ));
+        out
+    }
+
+    fn tabulated(&self) -> &'static [(&'static str, &'static str)] {
+        &[
+            ("pressure_error", "error of P"),
+            ("shock_speed_error", "error of Us"),
+            ("noise", "noise / P"),
+            ("pressure_l1", "L1 of P"),
+        ]
+    }
+
+    fn figures(&self, records: &Records) -> Vec<Figure> {
+        let panels =
+            [("copper", "cu"), ("aluminium", "al"), ("tungsten alloy on steel", "w-steel")];
+        let panels: Vec<Panel> = panels
+            .into_iter()
+            .filter_map(|(title, metals)| {
+                let axes =
+                    (Axis::linear("place in the undeformed column, cm"), Axis::linear("P / exact"));
+                let mut panel = Panel::new(title, axes.0, axes.1.range(0.0, 1.3));
+                let mut any = false;
+                for speed in SPEEDS {
+                    let mut variant = String::new();
+                    // The plain variant has no name.
+                    if (metals, speed) != ("cu", "1") {
+                        let _ = write!(variant, "{metals}-{speed}");
+                    }
+                    let key = RunKey::new(ID, Scheme::preset(Preset::Default), SIZES[1]);
+                    let record = records.get(&key.variant(&variant));
+                    let Some(profile) = record.and_then(|r| r.profile.as_ref()) else {
+                        continue;
+                    };
+                    let Ok(exact) = Shot::of(&variant).exact() else { continue };
+                    any = true;
+                    let points = profile.points("place", "pressure");
+                    let points = points.iter().map(|p| (p.0, p.1 / exact.pressure)).collect();
+                    panel = panel.with(Curve::line(format!("{speed} km/s"), points));
+                }
+                panel = panel.with(Layer::horizontal(1.0, "Hugoniot"));
+                any.then_some(panel)
+            })
+            .collect();
+        if panels.is_empty() {
+            return Vec::new();
+        }
+        let caption = "Mean pressure of the planes of the column over the exact pressure, at the end of \
+                       the run, 80 cells.";
+        vec![Figure::new("planar-impact-profiles", caption, panels)]
+    }
+}
+
+/// Mean and root mean square about it.
+fn moments(values: &[f64]) -> (f64, f64) {
+    let n = values.len() as f64;
+    let mean = values.iter().sum::<f64>() / n;
+    (mean, (values.iter().map(|v| (v - mean) * (v - mean)).sum::<f64>() / n).sqrt())
+}
