@@ -219,7 +219,8 @@ impl Case for PlanarImpact {
          bodies in contact, at closing speeds from 0.5 to 7 km/s, without strength. Pressure is \
          averaged from 8 cells off the impact plane to 8 cells behind the front; the speed is the \
          slope of the place of half the pressure over the second half of the run, in the undeformed \
-         column. n counts the cells along the column."
+         column. n counts the cells along the column. Mirrors hold the pairs alike; tungsten on steel \
+         meets as two lattices face to face, node on node, which is the test of contact between bodies."
     }
 
     fn source(&self) -> &'static str {

@@ -8,6 +8,7 @@ mod cli;
 mod common;
 mod convergence;
 mod names;
+mod planar_impact;
 mod report;
 mod tables;
 mod vtk;
