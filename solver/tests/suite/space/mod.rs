@@ -1,5 +1,15 @@
 //! Tests of the solver in three dimensions.
 
+mod bodies;
+mod conservation;
+mod determinism;
+mod failure;
+mod lattice_density;
+mod memory;
+mod objectivity;
 mod plain;
+mod planar;
+mod plasticity;
 mod reference;
+mod refusals;
 mod scenes;

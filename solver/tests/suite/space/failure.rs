@@ -1,0 +1,125 @@
+//! Elements that fail, the energy that they free, and what is left of them.
+
+use whipple_solver::space::method::Release;
+use whipple_solver::space::scene::{Body, Flow};
+
+use super::scenes::{block, copper, march, scene, start, steel, strong};
+
+/// A spinning block whose tensile strength is passed: all stored energy becomes heat, over the steps
+/// of the release, and the books close.
+#[test]
+fn damage_turns_stored_energy_into_heat() {
+    for release in [Release::Steps(20.0), Release::Crossings(5.0)] {
+        let mut material = strong(steel(), 0.801, None);
+        material.failure.plastic_strain = None;
+        material.failure.melt = None;
+        material.failure.spall = Some(2e-4);
+        let body = Body { spin: [0.0, 0.0, 0.06], ..block("steel", [6, 4, 4], 0.1) };
+        let mut scene = scene(vec![material], vec![body]);
+        scene.method.release = release;
+        let mut simulation = start(&scene);
+        let mut partly = 0;
+        for _ in 0..200 {
+            march(&mut simulation, 1);
+            let some =
+                |e: &whipple_solver::space::output::Element| e.damage > 0.0 && e.damage < 1.0;
+            partly += usize::from(simulation.all_elements().any(|e| some(&e)));
+        }
+        let b = simulation.balance();
+        let ruined = simulation.all_elements().filter(|e| e.damage == 1.0).count();
+        println!(
+            "{release:?}: {ruined} of {} ruined, heat {:.1e} of {:.1e}, energy {:.1e}, residual {:.1e}",
+            simulation.elements(),
+            b.element_heat,
+            b.initial.kinetic,
+            b.energy_drift(),
+            b.relative_residual()
+        );
+        assert!(ruined > 0 && partly > 5 && b.element_heat > 0.0);
+        assert!(b.energy_drift() < 1e-12 && b.angular_drift() < 1e-12);
+        for e in simulation.all_elements().filter(|e| e.damage == 1.0) {
+            assert_eq!(e.equivalent_stress, 0.0);
+        }
+        if ruined == simulation.elements() {
+            assert_eq!(b.now.shear + b.now.tension, 0.0);
+        }
+    }
+}
+
+/// Without the choice, a tensile strength fails nothing.
+#[test]
+fn spall_is_a_choice() {
+    let mut material = strong(steel(), 0.801, None);
+    material.failure.spall = Some(1e-9);
+    let body = Body { spin: [0.0, 0.0, 0.05], ..block("steel", [6, 4, 4], 0.1) };
+    let mut scene = scene(vec![material], vec![body]);
+    scene.method.spall = false;
+    let mut simulation = start(&scene);
+    march(&mut simulation, 50);
+    assert_eq!(simulation.failed(), (0, 0));
+}
+
+/// A block that bursts: its fragments, alone, neither stay compressed nor heat or cool, and do not
+/// dictate the time step for ever.
+#[test]
+fn lonely_fragments_relax() {
+    let mut material = copper();
+    material.failure.melt = Some(310.0);
+    let body = Body { energy: 0.02, ..block("copper", [3, 3, 3], 0.1) };
+    let mut simulation = start(&scene(vec![material], vec![body]));
+    let first = {
+        march(&mut simulation, 1);
+        simulation.last_step()
+    };
+    march(&mut simulation, 600);
+    let b = simulation.balance();
+    let (failed, dead) = simulation.failed();
+    let alone: Vec<_> = simulation.all_particles().filter(|p| p.held == 0.0).collect();
+    let dense = alone.iter().map(|p| p.rho / 8.93).fold(0.0, f64::max);
+    let warm: Vec<f64> = alone.iter().map(|p| p.u).collect();
+    println!(
+        "{failed} failed, {dead} dead; densest fragment {dense:.3}, energy {:.1e}, step {:.3} of the first",
+        b.energy_drift(),
+        simulation.last_step() / first
+    );
+    assert_eq!((failed, dead), (27, 27));
+    assert!(b.energy_drift() < 1e-12 && b.mass_error() < 1e-15);
+    assert!(dense < 0.85 && simulation.last_step() > 0.5 * first);
+    march(&mut simulation, 50);
+    let after: Vec<f64> =
+        simulation.all_particles().filter(|p| p.held == 0.0).map(|p| p.u).collect();
+    assert_eq!(warm, after, "nothing works on what is alone");
+}
+
+/// Material that flows heats by what the elements lose: a yielding collision closes its books, with
+/// the work of the elements against their energy and heat as the residual.
+#[test]
+fn plastic_work_is_heat() {
+    let flow = Flow::Hardening {
+        y_0: 0.005,
+        kappa: 0.0,
+        alpha: 0.0,
+        eta: 0.0,
+        reference: 300.0,
+        melt: 2000.0,
+    };
+    let mut material = strong(copper(), 0.46, Some(flow));
+    material.failure.compression = 0.1;
+    let fast = Body { velocity: [0.02, 0.0, 0.0], ..block("copper", [8, 4, 4], 0.1) };
+    let slow = Body { centre: [0.81, 0.0, 0.0], ..block("copper", [8, 4, 4], 0.1) };
+    let mut simulation = start(&scene(vec![material], vec![fast, slow]));
+    march(&mut simulation, 120);
+    let b = simulation.balance();
+    let worst = simulation.all_elements().map(|e| e.strain).fold(0.0, f64::max);
+    println!(
+        "heat {:.3} of the kinetic energy, strain {worst:.3}, residual {:.1e}",
+        b.element_heat / b.initial.kinetic,
+        b.relative_residual()
+    );
+    assert!(b.element_heat > 0.01 * b.initial.kinetic && worst > 0.005);
+    assert!(b.relative_residual().abs() < 5e-3 && b.energy_drift() < 1e-12);
+    for e in simulation.all_elements() {
+        // At small plastic strain the effective stress is the stress itself.
+        assert!(e.equivalent_stress < 0.005 * (1.0 + 3.0 * e.strain) + 1e-9, "{e:?}");
+    }
+}

@@ -1,0 +1,51 @@
+//! Scenes that cannot be simulated, and what is said of them.
+
+use whipple_solver::space::Simulation;
+use whipple_solver::space::method::Release;
+use whipple_solver::space::scene::{Scene, Shape};
+
+use super::scenes::{mirror, rod};
+use whipple_solver::space::scene::Side;
+
+fn refused(change: impl FnOnce(&mut Scene)) -> String {
+    let mut scene = rod(4, 8, [8, 4, 8]);
+    assert_eq!(scene.validate(), Ok(()));
+    change(&mut scene);
+    let error = scene.validate().expect_err("a bad scene");
+    assert_eq!(Simulation::new(&scene).err(), Some(error.clone()), "a simulation refuses it alike");
+    error.to_string()
+}
+
+#[test]
+fn bad_scenes_are_named() {
+    let messages = [
+        refused(|s| s.stop_time = f64::NAN),
+        refused(|s| s.method.cfl = 0.0),
+        refused(|s| s.method.visc_quad = -1.0),
+        refused(|s| s.method.contact_reach = 1.4),
+        refused(|s| s.method.release = Release::Crossings(0.0)),
+        refused(|s| {
+            s.walls.push(mirror(3, 0.0, Side::Above));
+        }),
+        refused(|s| s.materials[0].density = 0.0),
+        refused(|s| s.materials[1].name = "tungsten".into()),
+        refused(|s| s.materials[1].failure.spall = Some(-0.01)),
+        refused(|s| {
+            if let Some(strength) = &mut s.materials[0].strength {
+                strength.shear_modulus = f64::INFINITY;
+            }
+        }),
+        refused(|s| s.bodies.clear()),
+        refused(|s| s.bodies[0].material = "unobtainium".into()),
+        refused(|s| s.bodies[0].cells[1] = 0),
+        refused(|s| s.bodies[0].turn.axis = [0.0; 3]),
+        refused(|s| s.bodies[0].energy = -1.0),
+        refused(|s| s.bodies[1].shape = Shape::Sphere { diameter: -1.0 }),
+        refused(|s| s.bodies[1].cells = [8, 8, 8]),
+        refused(|s| {
+            s.bodies[1].cells = [800; 3];
+            s.bodies[1].shape = Shape::Box { size: [80.0; 3] };
+        }),
+    ];
+    insta::assert_snapshot!(messages.join("\n"));
+}
