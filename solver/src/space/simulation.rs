@@ -269,10 +269,16 @@ impl Simulation {
         pieces(columns, 0, 0..self.mesh.pieces.len(), &work);
         for wall in &self.walls {
             let columns = (&mut self.state, &mut self.derived);
-            wall.keep((&self.mesh, &self.contacts), columns, dt, &mut self.walls_gave, |i| {
-                self.active[self.mesh.piece_of(i)] = true;
-                self.touched[i] = true;
-            });
+            wall.keep(
+                (&self.mesh, &self.contacts),
+                columns,
+                dt,
+                &mut self.walls_gave,
+                |i, stopped| {
+                    self.active[self.mesh.piece_of(i)] = true;
+                    self.touched[i] |= stopped;
+                },
+            );
         }
     }
 

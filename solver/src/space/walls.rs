@@ -48,14 +48,15 @@ impl Wall {
     }
 
     /// Keeps particles on their side over a step of length `dt`; they stop at the wall at most.
-    /// Velocities are those after the kick. `seen` is told of every particle that was stopped.
+    /// Velocities are those after the kick. `seen` is told of every particle whose velocity
+    /// changes, and whether it was stopped.
     pub fn keep(
         &self,
         (mesh, contacts): (&Mesh, &Contacts),
         (state, derived): (&mut State, &mut Derived),
         dt: f64,
         given: &mut Given,
-        mut seen: impl FnMut(usize),
+        mut seen: impl FnMut(usize, bool),
     ) {
         let axis = self.axis;
         for (i, body, x) in contacts.along(axis) {
@@ -67,13 +68,16 @@ impl Wall {
                 // To the wall and no further; what is beyond it already stops.
                 let wanted = self.side * (-gap / dt).min(0.0) - whole;
                 self.set((i, body), wanted, mesh, (state, derived), given);
-                seen(i);
+                seen(i, true);
             }
         }
         for &i in &self.held {
             let i = i as usize;
             let body = mesh.place(i).0;
             let wanted = -mesh.bodies[body].velocity[axis];
+            if velocity(state)[axis][i] != wanted {
+                seen(i, false);
+            }
             self.set((i, body), wanted, mesh, (state, derived), given);
         }
     }
