@@ -74,9 +74,12 @@ impl Simulation {
         let volumes = scene.method.density == Density::Hybrid;
         let mut state = State::zeros(mesh.len);
         state.rho.fill(1.0);
+        for piece in &mesh.pieces {
+            // Inert particles of the last eight too: they are evaluated with the others.
+            state.rho[piece.range.clone()].fill(mesh.bodies[piece.body].rho_0);
+        }
         for (body, data) in mesh.bodies.iter().zip(&scene.bodies) {
             for i in body.nodes.clone().chain(body.centroids.clone()) {
-                state.rho[i] = body.rho_0;
                 state.u[i] = data.energy;
                 if data.noise > 0.0 {
                     state.vx[i] = data.noise * scatter(3 * i as u64);
