@@ -110,7 +110,8 @@ fn equations_of_state() {
     let hot = respond(&copper(), 8.93, 1e-3);
     assert!((hot[0] - 8.93 * 2.02 * 1e-3).abs() < 1e-15);
     assert!((hot[2] - (300.0 + 1e-3 / 0.383e-5)).abs() < 1e-9);
-    // The work of a slow cold compression heats by the Grueneisen coefficient alone.
+    // The cold energy is that of the isentrope through the reference state, to its third order: what
+    // follows it stays at the reference temperature nearly.
     let (mut rho, mut u, steps) = (8.93, 0.0, 20_000);
     let step = 8.93 * 0.1 / f64::from(steps);
     for _ in 0..steps {
@@ -120,7 +121,6 @@ fn equations_of_state() {
         rho += step;
     }
     let theta = respond(&copper(), rho, u)[2];
-    let isentrope = 300.0 * (2.02 * (1.0 - 8.93 / rho)).exp();
-    println!("isentrope to 1.1 rho_o: {theta:.1} K, exact {isentrope:.1} K");
-    assert!((theta - 300.0) / (isentrope - 300.0) < 1.2);
+    println!("on the isentrope to 1.1 rho_o: {theta:.1} K");
+    assert!((theta - 300.0).abs() < 6.0, "{theta}");
 }

@@ -1,7 +1,7 @@
 //! The same bits: any number of threads, with and without what is at rest.
 
 use whipple_solver::space::Scene;
-use whipple_solver::space::scene::{Body, Side};
+use whipple_solver::space::scene::{Body, Failure, Side};
 
 use super::scenes::{bits, block, march, mirror, rod, scene, start, steel};
 
@@ -40,11 +40,11 @@ fn skipping(scene: &Scene, steps: usize) -> [u64; 2] {
 /// Material at rest in the frame of its body costs nothing and counts for nothing.
 #[test]
 fn what_rests_is_skipped_without_a_trace() {
-    let mut scene = rod(5, 40, [40, 5, 24]);
+    let mut scene = rod(5, 60, [60, 5, 40]);
     scene.bodies[1].velocity = [0.03, -0.02, 0.01];
-    let [lazy, busy] = skipping(&scene, 40);
+    let [lazy, busy] = skipping(&scene, 20);
     println!("{lazy} updates instead of {busy}");
-    assert!(lazy < busy * 3 / 4);
+    assert!(lazy < busy * 5 / 6);
 }
 
 /// A body that leaves its plane of symmetry is pulled at once.
@@ -71,10 +71,8 @@ fn any_unit_of_density() {
         let mut scene = rod(4, 16, [16, 4, 8]);
         for material in &mut scene.materials {
             material.density *= unit;
-            material.failure = Default::default();
-            if let whipple_solver::space::scene::EosData::MieGruneisen { .. } = material.eos {
-                material.strength = None;
-            }
+            material.failure = Failure::default();
+            material.strength = None;
         }
         let mut simulation = start(&scene);
         march(&mut simulation, 20);

@@ -71,7 +71,7 @@ fn densities_of_affine_paths() {
     let shear = |end: f64| along(move |t| [[1.0, end * t, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
     let uniform = along(|t| diagonal(1.0 - 0.2 * t, 1.0 - 0.2 * t, 1.0 - 0.2 * t));
     let upset = along(|t| {
-        let s = (-0.2 * t).exp();
+        let s = (-0.28 * t).exp();
         diagonal(s, 1.0 / s.sqrt(), 1.0 / s.sqrt())
     });
     let found = [
@@ -83,7 +83,7 @@ fn densities_of_affine_paths() {
         ("shear 0.05", shear(0.05), 1.001),
         ("shear 0.2", shear(0.2), 1.029),
         ("shear 0.4", shear(0.4), 1.140),
-        ("upset 0.2", upset, 1.069),
+        ("upset 0.28", upset, 1.069),
     ];
     for (path, rho, wanted) in found {
         println!("{path}: {rho:.4}, {wanted}");
