@@ -292,6 +292,8 @@ impl Simulation {
             stale: from.u8s() != [0],
         };
         self.contacts.recall(&self.mesh, &memory, (&self.method, !self.volumes));
+        // The list is that of its time; the members stand where they are now.
+        self.contacts.refresh(&self.mesh, &self.state, &self.method, !self.volumes);
         self.set_clock(from.f64s());
         self.set_books(from.f64s());
         self.set_counts(from.u64s());
