@@ -43,9 +43,9 @@ fn masses_are_exact() {
         let simulation = start(&scene(vec![copper()], vec![one]));
         let mass = simulation.holdings()[0].mass;
         assert!((mass / (8.93 * shape.volume()) - 1.0).abs() < 1e-12, "{shape:?}");
-        for d in 0..3 {
+        for (d, centre) in centre.into_iter().enumerate() {
             let first: f64 = simulation.all_particles().map(|p| p.mass * p.position[d]).sum();
-            assert!((first / mass - centre[d]).abs() < 1e-12, "{shape:?}");
+            assert!((first / mass - centre).abs() < 1e-12, "{shape:?}");
         }
         let (length, size) = simulation.sizes(0);
         let volume: f64 = size.iter().product();
@@ -79,18 +79,8 @@ fn elements_name_their_particles() {
 
 /// Pressure, square of the sound speed and temperature.
 fn respond(material: &Material, rho: f64, u: f64) -> [f64; 3] {
-    let r = Eos::new(material).respond(F8::splat(rho), F8::splat(u));
+    let r = Eos::new(material).respond(F8([rho; 8]), F8([u; 8]));
     [r.pressure, r.sound_squared, r.theta].map(|lanes| lanes.0[5])
-}
-
-trait Splat {
-    fn splat(x: f64) -> F8;
-}
-
-impl Splat for F8 {
-    fn splat(x: f64) -> F8 {
-        F8([x; 8])
-    }
 }
 
 #[test]

@@ -46,8 +46,7 @@ fn one_turn_of_a_block() {
 
 /// Two blocks that collide.
 fn collision() -> Scene {
-    let turn = Turn { axis: [0.3, 1.0, 0.2], degrees: 20.0 };
-    let fast = Body { velocity: [0.06, -0.02, 0.01], turn, ..block("tungsten", [6, 5, 4], 0.1) };
+    let fast = Body { velocity: [0.06, -0.02, 0.01], ..block("tungsten", [6, 5, 4], 0.1) };
     let slow = Body { centre: [0.83, 0.06, 0.03], ..block("steel", [5, 7, 6], 0.1) };
     scene(vec![tungsten(), steel()], vec![fast, slow])
 }
@@ -64,13 +63,8 @@ fn a_turned_scene_is_the_same_scene() {
     for body in &mut other.bodies {
         body.centre = rotate(body.centre);
         body.velocity = rotate(body.velocity);
+        body.turn = Turn { axis, degrees };
     }
-    other.bodies[1].turn = Turn { axis, degrees };
-    // The first body is turned already: its turn is not a single one any more.
-    let plain = |scene: &mut Scene| scene.bodies[0].turn = Turn::default();
-    let (mut straight, mut other) = (straight, other);
-    plain(&mut straight);
-    other.bodies[0].turn = Turn { axis, degrees };
     let (a, b) = (after(&straight, 80), after(&other, 80));
     let length = a.sizes(0).0;
     let apart = a.all_particles().zip(b.all_particles()).map(|(p, q)| {

@@ -280,8 +280,8 @@ impl Plain {
         let wanted = data.shape.volume() / cells.len() as f64;
         let nominal = cell[0] * cell[1] * cell[2];
         if let Shape::Cylinder { .. } = data.shape {
-            for d in 0..2 {
-                cell[d] *= (wanted / nominal).sqrt();
+            for edge in &mut cell[..2] {
+                *edge *= (wanted / nominal).sqrt();
             }
         }
         let volume: f64 = cell.iter().product();

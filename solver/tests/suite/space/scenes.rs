@@ -1,8 +1,5 @@
 //! Scenes that the tests in three dimensions share. Units: cm, g, us, Mbar.
 
-// Some of these serve tests that are still being written.
-#![allow(dead_code)]
-
 use whipple_solver::method::Preset;
 use whipple_solver::space::Simulation;
 use whipple_solver::space::method::Method;
