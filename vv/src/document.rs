@@ -31,9 +31,10 @@ pub fn compose(records: &Records, verdicts: &[Verdict]) -> (Report, Vec<Figure>)
     ]);
     let report = Report {
         title: "Whipple: verification report".into(),
-        subtitle: "The kernel-free hybrid particle-finite-element method in one and three dimensions, \
+        subtitle:
+            "The kernel-free hybrid particle-finite-element method in one and three dimensions, \
                    judged against exact solutions and the paper"
-            .into(),
+                .into(),
         summary: front::verdict(verdicts),
         sections: sections.into_iter().filter(has_content).collect(),
     };

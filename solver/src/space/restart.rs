@@ -55,8 +55,8 @@ pub struct RestartError {
 }
 
 impl RestartError {
-    fn new(section: &str, found: impl ToString, wanted: impl ToString) -> Self {
-        Self { section: section.to_owned(), found: found.to_string(), wanted: wanted.to_string() }
+    fn new(section: &str, found: impl Into<String>, wanted: impl Into<String>) -> Self {
+        Self { section: section.to_owned(), found: found.into(), wanted: wanted.into() }
     }
 }
 
@@ -205,7 +205,11 @@ impl Simulation {
         let wanted = self.sections();
         for (section, wanted) in sections.iter().zip(&wanted) {
             if section.name != wanted.name {
-                return Err(RestartError::new(&wanted.name, &section.name, "this section here"));
+                return Err(RestartError::new(
+                    &wanted.name,
+                    section.name.as_str(),
+                    "this section here",
+                ));
             }
             let (found, form) = (section.values.form(), wanted.values.form());
             if found != form {
@@ -227,7 +231,8 @@ impl Simulation {
     fn inspect(&self, sections: &[Section]) -> Result<(), RestartError> {
         for section in sections {
             let name = section.name.as_str();
-            let bad = |value: u64, wanted: &str| Err(RestartError::new(name, value, wanted));
+            let bad =
+                |value: u64, wanted: &str| Err(RestartError::new(name, value.to_string(), wanted));
             match &section.values {
                 Values::U8(values) if matches!(name, "group.live" | "group.failed") => {
                     let beyond =
