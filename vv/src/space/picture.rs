@@ -45,10 +45,12 @@ pub fn onto_the_section() -> Camera {
     Camera::new([0.0, 0.0, -1.0], [0.0, 1.0, 0.0])
 }
 
-/// The plane z = 0, in which the problem is symmetric.
+/// The plane z = 0, in which the problem is symmetric, but for a quarter of the first body's shortest
+/// edge: a section along the faces of elements would be ragged.
 #[must_use]
-pub fn symmetry_plane() -> Plane {
-    Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0] }
+pub fn symmetry_plane(simulation: &Simulation) -> Plane {
+    let edge = simulation.sizes(0).1.into_iter().fold(f64::INFINITY, f64::min);
+    Plane { point: [0.0, 0.0, 0.25 * edge], normal: [0.0, 0.0, 1.0] }
 }
 
 /// The box that holds the particles, but for a share of them beyond either end of each axis: scattered
