@@ -6,7 +6,11 @@
 
 #![allow(unsafe_code)]
 
-use super::lanes::{F8, Lanes};
+#[cfg(not(target_arch = "x86_64"))]
+use super::lanes::F8 as Basic;
+use super::lanes::Lanes;
+#[cfg(target_arch = "x86_64")]
+use super::wide::{W2 as Basic, W4, W8};
 
 /// A loop over groups of eight.
 pub trait Kernel {
@@ -33,28 +37,31 @@ impl Instructions {
     /// The widest that this processor has.
     #[must_use]
     pub fn detect() -> Self {
+        Self::available().last().unwrap_or(Self::Baseline)
+    }
+
+    /// Those that this processor has, from the narrowest to the widest.
+    pub fn available() -> impl Iterator<Item = Self> {
         #[cfg(target_arch = "x86_64")]
-        {
-            if is_x86_feature_detected!("avx512f")
+        let wider = {
+            let avx512 = is_x86_feature_detected!("avx512f")
                 && is_x86_feature_detected!("avx512dq")
                 && is_x86_feature_detected!("avx512vl")
-                && is_x86_feature_detected!("avx512bw")
-            {
-                return Self::Avx512;
-            }
-            if is_x86_feature_detected!("avx2") {
-                return Self::Avx2;
-            }
-        }
-        Self::Baseline
+                && is_x86_feature_detected!("avx512bw");
+            let avx2 = is_x86_feature_detected!("avx2");
+            [avx2.then_some(Self::Avx2), avx512.then_some(Self::Avx512)]
+        };
+        #[cfg(not(target_arch = "x86_64"))]
+        let wider = [];
+        std::iter::once(Self::Baseline).chain(wider.into_iter().flatten())
     }
 
     /// Runs a kernel with these instructions.
     #[inline]
     pub fn run<K: Kernel>(self, kernel: K) -> K::Output {
         match self {
-            Self::Baseline => kernel.run::<F8>(),
-            // SAFETY: these variants are made by `detect` alone, which has found the instructions.
+            Self::Baseline => kernel.run::<Basic>(),
+            // SAFETY: these variants are made by `available` alone, which has found the instructions.
             #[cfg(target_arch = "x86_64")]
             Self::Avx2 => unsafe { avx2(kernel) },
             // SAFETY: as above.
@@ -67,11 +74,11 @@ impl Instructions {
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
 unsafe fn avx2<K: Kernel>(kernel: K) -> K::Output {
-    kernel.run::<F8>()
+    kernel.run::<W4>()
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx512bw")]
 unsafe fn avx512<K: Kernel>(kernel: K) -> K::Output {
-    kernel.run::<super::wide::W8>()
+    kernel.run::<W8>()
 }

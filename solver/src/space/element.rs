@@ -395,7 +395,7 @@ impl Group {
 
     /// First pass: forces, volumes, conduction and the heat of flow and damage.
     #[inline(always)]
-    pub fn load_particles<F: Lanes, const VOLUMES: bool>(
+    pub fn load_particles<F: Lanes>(
         &mut self,
         body: &Body,
         laws: &Laws,
@@ -443,7 +443,7 @@ impl Group {
             push[k] = -tension;
         }
         let mut damping = F::zero();
-        if VOLUMES {
+        if laws.volumes {
             self.carry(&pyramids, (laws, read), &mut push, sink);
             let v: [V3<F>; 9] = self.gather_vector(read.velocity);
             let sound: [F; 9] = self.gather(read.sound);
@@ -706,7 +706,7 @@ impl Group {
     /// Second pass: volume rates, the viscous heat, and the power of the elements' own forces, all
     /// over the mean velocity of the step. Returns that power.
     #[inline(always)]
-    pub fn work<F: Lanes, const VOLUMES: bool>(
+    pub fn work<F: Lanes>(
         &self,
         body: &Body,
         (displacement, mean): ([&[f64]; 3], [&[f64]; 3]),
@@ -733,7 +733,7 @@ impl Group {
             }
             power += (shear * body.cell_volume).keep(self.live);
         }
-        if VOLUMES {
+        if laws.volumes {
             let share = shares(&rates, laws.method.balance);
             self.scatter(&share, sink.nodes.volume_rate, sink.first_node);
             self.scatter_centre(share[CENTRE], sink.centres.volume_rate, sink.first_centre);

@@ -1,7 +1,7 @@
 //! Eight numbers side by side: the unit of all inner loops in three dimensions.
 //!
 //! Kernels are written once, over [`Lanes`]. [`F8`] are plain arrays, for memory and for any
-//! processor; [`super::wide`] has the registers of those that hold eight numbers. No multiplication
+//! processor; [`super::wide`] has the registers of those whose registers are known. No multiplication
 //! is ever fused with an addition and sums have one order, so that all give the same bits.
 
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};

@@ -21,7 +21,7 @@ pub mod strength;
 pub mod sweep;
 pub mod walls;
 #[cfg(target_arch = "x86_64")]
-pub mod wide;
+mod wide;
 
 pub use scene::Scene;
 pub use simulation::Simulation;

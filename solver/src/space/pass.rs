@@ -158,11 +158,7 @@ impl Pass for Load<'_> {
     #[inline(always)]
     fn group<F: Lanes>(&self, group: &mut Group, mesh: &Mesh, sink: &mut Sink<'_>) -> Demand {
         let body = &mesh.bodies[group.body as usize];
-        if self.laws.volumes {
-            group.load_particles::<F, true>(body, &self.laws, &self.read, sink)
-        } else {
-            group.load_particles::<F, false>(body, &self.laws, &self.read, sink)
-        }
+        group.load_particles::<F>(body, &self.laws, &self.read, sink)
     }
 
     #[inline(always)]
@@ -198,11 +194,7 @@ impl Pass for Labour<'_> {
     fn group<F: Lanes>(&self, group: &mut Group, mesh: &Mesh, sink: &mut Sink<'_>) -> f64 {
         let body = &mesh.bodies[group.body as usize];
         let motion = (self.displacement, self.mean);
-        if self.laws.volumes {
-            group.work::<F, true>(body, motion, &self.laws, sink)
-        } else {
-            group.work::<F, false>(body, motion, &self.laws, sink)
-        }
+        group.work::<F>(body, motion, &self.laws, sink)
     }
 
     #[inline(always)]
