@@ -3,7 +3,7 @@
 //!
 //! Members are the particles that can take part: with elements that carry the pressure, those on
 //! surfaces and of dead elements, and two layers below; without, all. A list of pairs in reach is
-//! kept until motion makes it stale.
+//! kept until motion makes it stale. Where [`super::surfaces`] keep two particles apart, no pair does.
 
 use rayon::prelude::*;
 
@@ -15,6 +15,7 @@ use super::lattice::NONE;
 use super::mesh::Mesh;
 use super::method::Method;
 use super::near::{DEBRIS, EXPOSED, PairList, Points, Reach};
+use super::surfaces;
 
 /// Pairs that one task evaluates.
 const BLOCK: usize = 4096;
@@ -43,10 +44,27 @@ pub struct Contacts {
     list: PairList,
     blocks: Vec<Vec<Active>>,
     kernel: Option<Kernel>,
+    /// Whether elements carry the pressure of the particles that they hold.
+    volumes: bool,
     terms: Vec<Vec<[f64; 2]>>,
     /// Whether the list must be renewed whatever has moved.
     changed: bool,
     longest: f64,
+}
+
+/// A particle that can take part in contacts.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Member {
+    /// Particle.
+    pub(super) particle: usize,
+    /// Its body.
+    pub(super) body: usize,
+    /// Its place in the lattice.
+    pub(super) place: [i16; 3],
+    /// Whether it can touch any other.
+    pub(super) exposed: bool,
+    /// Where it is.
+    pub(super) position: [f64; 3],
 }
 
 /// What contacts keep from step to step, particle by particle.
@@ -132,20 +150,23 @@ struct View<'a> {
     derived: &'a Derived,
     method: &'a Method,
     kernel: Option<&'a Kernel>,
+    /// Whether elements carry the pressure of the particles that they hold.
+    volumes: bool,
 }
 
 impl Contacts {
-    /// Chooses members: all particles, or those near surfaces.
+    /// Chooses members: all particles, or where elements carry the pressure, those near surfaces.
     #[must_use]
-    pub fn new(mesh: &Mesh, everyone: bool, kernel: Option<Kernel>) -> Self {
+    pub fn new(mesh: &Mesh, volumes: bool, kernel: Option<Kernel>) -> Self {
         let mut contacts = Self {
             kernel,
+            volumes,
             index: vec![NONE; mesh.len],
             longest: mesh.bodies.iter().map(|b| b.length).fold(0.0, f64::max),
             ..Self::default()
         };
         for i in mesh.real() {
-            if everyone || mesh.exposed(i) {
+            if !volumes || mesh.exposed(i) {
                 contacts.expose(mesh, i);
             }
         }
@@ -197,6 +218,27 @@ impl Contacts {
         particles.zip(bodies).zip(&self.position[axis]).map(|((i, body), &x)| (i, body, x))
     }
 
+    /// Pairs of members that might touch.
+    pub(super) fn list(&self) -> &[[u32; 2]] {
+        self.list.pairs()
+    }
+
+    /// A member.
+    pub(super) fn member(&self, at: usize) -> Member {
+        Member {
+            particle: self.members[at] as usize,
+            body: self.body[at] as usize,
+            place: self.place[at],
+            exposed: self.flags[at] & EXPOSED != 0,
+            position: self.position.each_ref().map(|x| x[at]),
+        }
+    }
+
+    /// The member that a particle is, if it is one.
+    pub(super) fn find(&self, i: usize) -> Option<usize> {
+        (self.index[i] != NONE).then_some(self.index[i] as usize)
+    }
+
     /// Number of members.
     #[must_use]
     pub fn members(&self) -> usize {
@@ -211,7 +253,7 @@ impl Contacts {
 
     /// Moves the members to their present positions and renews the list if it is stale. Returns
     /// whether it was.
-    pub fn refresh(&mut self, mesh: &Mesh, state: &State, method: &Method, everyone: bool) -> bool {
+    pub fn refresh(&mut self, mesh: &Mesh, state: &State, method: &Method) -> bool {
         let own = [&state.dx, &state.dy, &state.dz];
         let (members, body) = (&self.members, &self.body);
         for (d, own) in own.into_iter().enumerate() {
@@ -224,25 +266,28 @@ impl Contacts {
                 }
             });
         }
-        let lattice = (!everyone).then_some(&self.place[..]);
+        let lattice = self.volumes.then_some(&self.place[..]);
         let points = points(&self.position, &self.length, &self.flags, &self.body, lattice);
         if !self.changed && !self.list.is_stale(&points) {
             return false;
         }
-        self.renew(mesh, method, everyone);
+        self.renew(mesh, method);
         true
     }
 
     /// Makes the list anew from the present positions.
-    fn renew(&mut self, mesh: &Mesh, method: &Method, everyone: bool) {
+    fn renew(&mut self, mesh: &Mesh, method: &Method) {
         self.changed = false;
-        let lattice = (!everyone).then_some(&self.place[..]);
+        let lattice = self.volumes.then_some(&self.place[..]);
         let points = points(&self.position, &self.length, &self.flags, &self.body, lattice);
-        let reach = Reach { factor: method.reach(), skin: SKIN * self.longest };
+        let surfaces = if self.volumes { surfaces::REACH } else { 0.0 };
+        let factor = method.reach().max(surfaces);
+        let reach = Reach { factor, skin: SKIN * self.longest };
         let (place, flags, body) = (&self.place, &self.flags, &self.body);
+        let volumes = self.volumes;
         let keep = |a: u32, b: u32| {
             let (a, b) = (a as usize, b as usize);
-            if everyone || body[a] != body[b] {
+            if !volumes || body[a] != body[b] {
                 return true;
             }
             // Live material carries its own pressure: only the far ends of a body that folds touch.
@@ -270,14 +315,9 @@ impl Contacts {
     }
 
     /// The members, and the list as it was made.
-    pub(super) fn recall(
-        &mut self,
-        mesh: &Mesh,
-        memory: &Memory,
-        (method, everyone): (&Method, bool),
-    ) {
-        let (longest, kernel) = (self.longest, self.kernel.take());
-        *self = Self { index: vec![NONE; mesh.len], longest, kernel, ..Self::default() };
+    pub(super) fn recall(&mut self, mesh: &Mesh, memory: &Memory, method: &Method) {
+        let (longest, kernel, volumes) = (self.longest, self.kernel.take(), self.volumes);
+        *self = Self { index: vec![NONE; mesh.len], longest, kernel, volumes, ..Self::default() };
         for i in in_order(&memory.index) {
             let member = self.admit(mesh, i as usize);
             self.flags[member] = memory.flags[i as usize];
@@ -288,7 +328,7 @@ impl Contacts {
         if memory.stale {
             self.changed = true;
         } else {
-            self.renew(mesh, method, everyone);
+            self.renew(mesh, method);
         }
     }
 
@@ -331,7 +371,8 @@ impl Contacts {
         (method, dt): (&Method, f64),
         (sums, touched, active): (&mut Sums, &mut [bool], &mut [bool]),
     ) {
-        let view = View { mesh, state, derived, method, kernel: self.kernel.as_ref() };
+        let kernel = self.kernel.as_ref();
+        let view = View { mesh, state, derived, method, kernel, volumes: self.volumes };
         let pairs = self.list.pairs();
         self.blocks.resize_with(pairs.len().div_ceil(BLOCK), Vec::new);
         let (position, members, body) = (&self.position, &self.members, &self.body);
@@ -401,11 +442,27 @@ impl Contacts {
     }
 }
 
+/// Coefficient of the viscous force over impedance, Eq. (53), or that of the limited viscosity: a
+/// contact has no neighbours that could explain its jump. `slope` is that of the shock speed.
+pub(super) fn steepness(method: &Method, approach: f64, sound: f64, slope: f64) -> f64 {
+    let sound = sound.max(1e-300);
+    match method.viscosity {
+        Viscosity::Pairwise => method.visc_linear * (1.0 + method.visc_quad * approach / sound),
+        Viscosity::Limited => {
+            let steep = method.visc_quad * slope * approach / sound;
+            steep + (steep * steep + method.visc_linear * method.visc_linear).sqrt()
+        }
+    }
+}
+
 impl View<'_> {
     /// The contact of particles `pair` at distance `r`, if there is one.
     #[inline]
     fn contact(&self, pair: [u32; 2], r: [f64; 3], bodies: [usize; 2]) -> Option<Active> {
         let [i, j] = pair.map(|k| k as usize);
+        if self.volumes && surfaces::meet(self.mesh, [i, j], bodies) {
+            return None;
+        }
         let square = r[0] * r[0] + r[1] * r[1] + r[2] * r[2];
         let body = bodies.map(|b| &self.mesh.bodies[b]);
         let widest = body[0].length.max(body[1].length) * self.method.reach();
@@ -456,8 +513,10 @@ impl View<'_> {
             let approach = -(r[0] * v[0] + r[1] * v[1] + r[2] * v[2]) / distance;
             if approach > 0.0 {
                 let slope = 0.5 * (body[0].slope + body[1].slope);
+                let sound = 0.5 * (self.derived.sound[i] + self.derived.sound[j]);
+                let both = 0.5 * (impedance[0] + impedance[1]);
                 active.drag =
-                    self.viscosity(pair, approach, (impedance, slope)) * approach / distance;
+                    both * steepness(self.method, approach, sound, slope) * approach / distance;
             }
             let [a, b] = [0, 1].map(|k| impedance[k] * body[k].eos.c_v());
             // The flux of the limited viscosity acts in shocks alone.
@@ -469,26 +528,6 @@ impl View<'_> {
             active.flux = transfer * (self.derived.theta[i] - self.derived.theta[j]);
         }
         Some(active)
-    }
-
-    /// Coefficient of the viscous force, Eq. (53), or that of the limited viscosity: a contact has no
-    /// neighbours that could explain its jump.
-    fn viscosity(&self, pair: [u32; 2], approach: f64, (impedance, slope): ([f64; 2], f64)) -> f64 {
-        let method = self.method;
-        let [i, j] = pair.map(|k| k as usize);
-        let sound = self.derived.sound[i] + self.derived.sound[j];
-        let both = 0.5 * (impedance[0] + impedance[1]);
-        match method.viscosity {
-            Viscosity::Pairwise => {
-                let steep = 1.0 + 2.0 * method.visc_quad * approach / sound.max(1e-300);
-                both * method.visc_linear * steep
-            }
-            Viscosity::Limited => {
-                let sound = (0.5 * sound).max(1e-300);
-                let steep = method.visc_quad * slope * approach / sound;
-                both * (steep + (steep * steep + method.visc_linear * method.visc_linear).sqrt())
-            }
-        }
     }
 
     /// `3/8 W / (zeta^5 L^2)`, Eqs. (35)-(36), at a distance from a particle of contact length `L`.

@@ -22,6 +22,9 @@ pub struct Holdings {
     pub shear: f64,
     /// Energy stored in tension, Eq. (25).
     pub tension: f64,
+    /// Energy of the springs between surfaces, half to each body.
+    #[serde(default)]
+    pub spring: f64,
     /// Sum of `m |v|`, the scale of the momentum.
     pub momentum_scale: f64,
     /// Sum of `m |x| |v|`, the scale of the angular momentum.
@@ -41,6 +44,7 @@ impl Holdings {
             internal: self.internal + other.internal,
             shear: self.shear + other.shear,
             tension: self.tension + other.tension,
+            spring: self.spring + other.spring,
             momentum_scale: self.momentum_scale + other.momentum_scale,
             angular_scale: self.angular_scale + other.angular_scale,
         }
@@ -49,7 +53,7 @@ impl Holdings {
     /// All energy.
     #[must_use]
     pub fn energy(&self) -> f64 {
-        self.kinetic + self.internal + self.shear + self.tension
+        self.kinetic + self.internal + self.shear + self.tension + self.spring
     }
 }
 
@@ -70,15 +74,22 @@ pub struct Balance {
     pub element_work: f64,
     /// Heat of plastic flow and damage.
     pub element_heat: f64,
+    /// Work of the particles on the springs between surfaces.
+    #[serde(default)]
+    pub spring_work: f64,
+    /// Heat of springs whose surface died.
+    #[serde(default)]
+    pub spring_heat: f64,
 }
 
 impl Balance {
-    /// Work done on elements that is neither stored nor heat: the error of integrating their stress
-    /// over steps of finite length.
+    /// Work done on elements and springs that is neither stored nor heat: the error of integrating
+    /// their forces over steps of finite length.
     #[must_use]
     pub fn residual(&self) -> f64 {
-        let stored = |h: &Holdings| h.shear + h.tension;
-        self.element_work - self.element_heat - (stored(&self.now) - stored(&self.initial))
+        let stored = |h: &Holdings| h.shear + h.tension + h.spring;
+        let given = self.element_work - self.element_heat + (self.spring_work - self.spring_heat);
+        given - (stored(&self.now) - stored(&self.initial))
     }
 
     /// The residual over the initial kinetic energy, or the internal where nothing moved.
@@ -137,6 +148,11 @@ impl Simulation {
             all[group.body as usize].shear += shear.sum();
             all[group.body as usize].tension += tension.sum();
         }
+        for (holdings, spring) in
+            all.iter_mut().zip(self.surfaces.stored(&self.mesh, &self.contacts))
+        {
+            holdings.spring = spring;
+        }
         all
     }
 
@@ -174,6 +190,8 @@ impl Simulation {
             wall_work: self.walls_gave.work,
             element_work: self.element_work,
             element_heat: self.element_heat,
+            spring_work: self.spring_work,
+            spring_heat: self.spring_heat,
         }
     }
 

@@ -316,6 +316,13 @@ impl Mesh {
         nodes.chain(cells)
     }
 
+    /// Whether a live element holds a particle.
+    #[inline(always)]
+    #[must_use]
+    pub fn held(&self, i: usize) -> bool {
+        self.ratio[i] > 0.0
+    }
+
     /// Whether all elements of a particle are live.
     #[must_use]
     pub fn whole(&self, i: usize) -> bool {

@@ -18,6 +18,7 @@ pub mod restart;
 pub mod scene;
 pub mod simulation;
 pub mod strength;
+mod surfaces;
 pub mod sweep;
 pub mod walls;
 #[cfg(target_arch = "x86_64")]

@@ -296,9 +296,9 @@ impl Simulation {
             places: [from.f64s().to_vec(), from.f64s().to_vec(), from.f64s().to_vec()],
             stale: from.u8s() != [0],
         };
-        self.contacts.recall(&self.mesh, &memory, (&self.method, !self.volumes));
+        self.contacts.recall(&self.mesh, &memory, &self.method);
         // The list is that of its time; the members stand where they are now.
-        self.contacts.refresh(&self.mesh, &self.state, &self.method, !self.volumes);
+        self.contacts.refresh(&self.mesh, &self.state, &self.method);
         self.set_clock(from.f64s());
         self.set_books(from.f64s());
         self.set_counts(from.u64s());
@@ -322,7 +322,7 @@ impl Simulation {
     }
 
     /// What the balance has booked, and what the scene held at the start.
-    fn books(&self) -> [f64; 22] {
+    fn books(&self) -> [f64; 25] {
         let (h, walls) = (&self.initial, &self.walls_gave);
         let [px, py, pz] = h.momentum;
         let [lx, ly, lz] = h.angular;
@@ -351,11 +351,14 @@ impl Simulation {
             h.tension,
             h.momentum_scale,
             h.angular_scale,
+            h.spring,
+            self.spring_work,
+            self.spring_heat,
         ]
     }
 
     fn set_books(&mut self, books: &[f64]) {
-        let Ok(b) = <[f64; 22]>::try_from(books) else { return };
+        let Ok(b) = <[f64; 25]>::try_from(books) else { return };
         (self.element_work, self.element_heat) = (b[0], b[1]);
         let walls = &mut self.walls_gave;
         walls.work = b[2];
@@ -366,7 +369,8 @@ impl Simulation {
         h.momentum = [b[10], b[11], b[12]];
         h.angular = [b[13], b[14], b[15]];
         (h.kinetic, h.internal, h.shear, h.tension) = (b[16], b[17], b[18], b[19]);
-        (h.momentum_scale, h.angular_scale) = (b[20], b[21]);
+        (h.momentum_scale, h.angular_scale, h.spring) = (b[20], b[21], b[22]);
+        (self.spring_work, self.spring_heat) = (b[23], b[24]);
     }
 
     /// Counters, and the piece that decides the next step.

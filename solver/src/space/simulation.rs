@@ -11,6 +11,7 @@ use super::mesh::{Group, Mesh};
 use super::method::Method;
 use super::pass::{Labour, Load, over_elements};
 use super::scene::Scene;
+use super::surfaces::Surfaces;
 use super::sweep::{Allowed, Kick, Respond, Stage};
 use super::walls::{Given, Wall};
 use crate::counters::Counters;
@@ -35,6 +36,7 @@ pub struct Simulation {
     pub(super) derived: Derived,
     pub(super) sums: Sums,
     pub(super) contacts: Contacts,
+    pub(super) surfaces: Surfaces,
     pub(super) walls: Vec<Wall>,
     pub(super) method: Method,
     /// Pieces that were ever moved or pushed.
@@ -54,6 +56,10 @@ pub struct Simulation {
     pub(super) element_work: f64,
     /// Heat of plastic flow and damage so far.
     pub(super) element_heat: f64,
+    /// Work of the particles on the springs between surfaces so far.
+    pub(super) spring_work: f64,
+    /// Heat of springs that were released.
+    pub(super) spring_heat: f64,
     pub(super) initial: Holdings,
     /// What the walls have given so far.
     pub(super) walls_gave: Given,
@@ -100,7 +106,8 @@ impl Simulation {
         let mut simulation = Self {
             derived: Derived::zeros(mesh.len),
             sums: Sums::zeros(mesh.len),
-            contacts: Contacts::new(&mesh, !volumes, kernel),
+            contacts: Contacts::new(&mesh, volumes, kernel),
+            surfaces: Surfaces::new(&mesh, volumes),
             walls: Wall::all(scene, &mesh),
             active: vec![true; mesh.pieces.len()],
             touched: vec![false; mesh.len],
@@ -113,6 +120,8 @@ impl Simulation {
             first_dt: 0.0,
             element_work: 0.0,
             element_heat: 0.0,
+            spring_work: 0.0,
+            spring_heat: 0.0,
             initial: Holdings::default(),
             walls_gave: Given::default(),
             counters: Counters::default(),
@@ -218,12 +227,20 @@ impl Simulation {
         let (mesh, groups) = (&self.mesh, &mut self.groups);
         self.demand = over_elements(&pass, mesh, groups, self.sums.slices(), self.instructions);
         self.element_heat += self.demand.heat;
+        let columns = (&self.state, &self.derived);
         self.contacts.push(
             &self.mesh,
-            (&self.state, &self.derived),
+            columns,
             (&self.method, self.dt),
             (&mut self.sums, &mut self.touched, &mut self.active),
         );
+        let rate = self.surfaces.push(
+            (&self.mesh, &self.contacts),
+            columns,
+            &self.method,
+            (&mut self.sums, &mut self.touched, &mut self.active),
+        );
+        self.demand.rate = self.demand.rate.max(rate);
     }
 
     /// The length of the step: what sound, the density and the elements allow, and landing on `until`.
@@ -297,6 +314,8 @@ impl Simulation {
         let power = over_elements(&pass, mesh, groups, self.sums.slices(), self.instructions);
         self.element_work += self.kick * power;
         self.contacts.work(&self.mesh, &self.derived, self.kick, &mut self.sums);
+        self.spring_work +=
+            self.surfaces.work(&self.mesh, &self.derived, self.kick, &mut self.sums);
     }
 
     /// Ends the step, Eqs. (36), (58), (76), and evaluates the equation of state (22).
@@ -307,7 +326,7 @@ impl Simulation {
                 *way += self.dt * velocity;
             }
         }
-        self.contacts.refresh(&self.mesh, &self.state, &self.method, !self.volumes);
+        self.contacts.refresh(&self.mesh, &self.state, &self.method);
         if self.method.density == Density::Kernel {
             let rho = &mut self.derived.rho;
             self.counters.kernel_evaluations += self.contacts.sum_density(&self.mesh, rho);
@@ -355,7 +374,9 @@ impl Simulation {
             for group in &mut self.groups {
                 group.look_beyond_the_dead(&self.mesh.ratio);
             }
-            self.contacts.refresh(&self.mesh, &self.state, &self.method, !self.volumes);
+            self.contacts.refresh(&self.mesh, &self.state, &self.method);
+            let u = &mut self.state.u;
+            self.spring_heat += self.surfaces.release(&self.mesh, &self.contacts, u);
         }
     }
 

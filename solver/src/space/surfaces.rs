@@ -1,0 +1,454 @@
+//! Surfaces of live elements, which keep the particles of other bodies out (decision 0014).
+//!
+//! A particle that elements hold has its density from their volumes. The printed contact between two
+//! such particles would compress both a second time, and a node on a node gives way before it carries
+//! the pressure of the bodies. So a particle in front of a live surface of another body feels a
+//! spring on the nearest point of that surface: the force is the gradient of an energy of the
+//! distance alone, along the line between the two points, so energy, momentum and angular momentum
+//! are kept.
+
+use super::columns::{Derived, State, Sums};
+use super::contacts::{Contacts, Member, steepness};
+use super::lattice::NONE;
+use super::mesh::Mesh;
+use super::method::Method;
+
+/// Distance at which a surface is felt, in edges of cells.
+const STAND: f64 = 0.5;
+
+/// Distance in contact lengths within which the corner of the nearest face is sought: of a face that
+/// is stretched to 1.5 times its edge.
+pub(super) const REACH: f64 = 1.4;
+
+/// Smallest part of it. Nothing keeps a particle that a surface appeared closer to: it feels it when it
+/// has left it so far.
+const CLOSE: f64 = 0.25;
+
+/// Stiffness of the spring over that of the half cells behind both surfaces in series: two flat surfaces
+/// of one material carry its bulk modulus at 0.58 of the distance.
+const STIFFNESS: f64 = 0.5;
+
+/// Distance, over that at which a surface is felt, below which the force rises no more: a
+/// stiffer spring would dictate the time step.
+const DEEPEST: f64 = 0.2;
+
+/// Approach in a step over the distance, before the safety of the step.
+const APPROACH: f64 = 0.4;
+
+/// Rate of damping over that which stops the approach in one step, before the safety of the step: two
+/// springs act on a pair of nodes face to face.
+const DAMPING: f64 = 2.0;
+
+/// Whether a surface keeps two particles apart: of two solid bodies, and one of them held.
+#[inline(always)]
+pub fn meet(mesh: &Mesh, pair: [usize; 2], bodies: [usize; 2]) -> bool {
+    bodies[0] != bodies[1]
+        && pair.iter().any(|&i| mesh.held(i))
+        && bodies.iter().all(|&b| mesh.bodies[b].solid.sound > 0.0)
+}
+
+/// Energy, force and stiffness of a spring of unit stiffness and length at a distance below one:
+/// `(1 - z)^2 / (2 z)`, whose force rises no more below [`DEEPEST`].
+struct Law;
+
+impl Law {
+    fn energy(z: f64) -> f64 {
+        let deep = z.max(DEEPEST);
+        if z < 1.0 {
+            0.5 * (1.0 - deep) * (1.0 - deep) / deep + Self::force(z) * (deep - z)
+        } else {
+            0.0
+        }
+    }
+
+    fn force(z: f64) -> f64 {
+        let z = z.max(DEEPEST);
+        if z < 1.0 { 0.5 * (1.0 / (z * z) - 1.0) } else { 0.0 }
+    }
+
+    fn stiffness(z: f64) -> f64 {
+        1.0 / z.max(DEEPEST).powi(3)
+    }
+}
+
+/// Face of an element.
+#[derive(Debug, Clone, Copy)]
+struct Face {
+    /// Its corners, in order round it.
+    nodes: [usize; 4],
+    /// Centroid of the element.
+    cell: usize,
+}
+
+/// A particle in front of a surface, in touch with it or not.
+#[derive(Debug, Clone, Copy)]
+struct Spring {
+    member: usize,
+    particle: usize,
+    body: usize,
+    /// Body of the surface.
+    other: usize,
+    face: Face,
+    /// Shares of the corners in the nearest point.
+    share: [f64; 4],
+    /// Unit vector from the surface to the particle.
+    way: [f64; 3],
+    distance: f64,
+    /// Distance at which the spring begins.
+    stand: f64,
+    /// Area that the particle acts for.
+    area: f64,
+    /// Stiffness, an energy over area.
+    stiffness: f64,
+    force: f64,
+    /// Viscous force.
+    drag: f64,
+}
+
+impl Spring {
+    fn energy(&self) -> f64 {
+        self.area * self.stiffness * Law::energy(self.distance / self.stand)
+    }
+
+    /// Velocity of the particle towards the surface.
+    fn approach(&self, mesh: &Mesh, v: [&[f64]; 3]) -> f64 {
+        let drift = mesh.drift_of(self.body, self.other);
+        let corners = || self.face.nodes.iter().zip(&self.share);
+        let along = |d: usize| {
+            let surface: f64 = corners().map(|(&j, share)| share * v[d][j]).sum();
+            self.way[d] * (v[d][self.particle] - surface + drift[d])
+        };
+        -(along(0) + along(1) + along(2))
+    }
+
+    /// Particles that take part, with their shares of the force.
+    fn shares(&self) -> impl Iterator<Item = (usize, f64)> {
+        let corners = self.face.nodes.into_iter().zip(self.share.map(|share| -share));
+        std::iter::once((self.particle, 1.0)).chain(corners)
+    }
+}
+
+/// The particles in front of surfaces.
+#[derive(Debug, Clone, Default)]
+pub struct Surfaces {
+    /// Whether there can be any.
+    some: bool,
+    /// Distance at which each member feels a surface.
+    pub(super) stand: Vec<f64>,
+    /// Nearest node of another body's surface and the square of its distance, by member.
+    nearest: Vec<(f64, u32)>,
+    springs: Vec<Spring>,
+}
+
+impl Surfaces {
+    /// Of a mesh whose elements carry the pressure, or not.
+    #[must_use]
+    pub fn new(mesh: &Mesh, volumes: bool) -> Self {
+        Self { some: volumes && mesh.bodies.len() > 1, ..Self::default() }
+    }
+
+    /// Forces on particles and surfaces, and the marks of touched particles. Returns the inverse of
+    /// the longest stable step.
+    pub fn push(
+        &mut self,
+        (mesh, contacts): (&Mesh, &Contacts),
+        (state, derived): (&State, &Derived),
+        method: &Method,
+        (sums, touched, active): (&mut Sums, &mut [bool], &mut [bool]),
+    ) -> f64 {
+        if !self.some {
+            return 0.0;
+        }
+        self.look(mesh, contacts);
+        let velocity = [&state.vx[..], &state.vy, &state.vz];
+        let mut rate = 0.0f64;
+        for spring in &mut self.springs {
+            let approach = spring.approach(mesh, velocity);
+            rate = rate.max(approach / (APPROACH * spring.distance.max(DEEPEST * spring.stand)));
+            let z = spring.distance / spring.stand;
+            if z >= 1.0 {
+                continue;
+            }
+            spring.force = spring.area * spring.stiffness * Law::force(z) / spring.stand;
+            let inertia: f64 = spring.shares().map(|(i, w)| w * w / mesh.mass[i]).sum();
+            if approach > 0.0 {
+                let (impedance, sound) = resistance(mesh, derived, spring);
+                let bodies = [spring.body, spring.other].map(|b| &mesh.bodies[b]);
+                let slope = 0.5 * (bodies[0].slope + bodies[1].slope);
+                let coefficient = impedance * steepness(method, approach, sound, slope);
+                spring.drag = coefficient * approach;
+                rate = rate.max(DAMPING * coefficient * inertia);
+            }
+            let stiffness = spring.area * spring.stiffness * Law::stiffness(z);
+            let stiffness = stiffness / (spring.stand * spring.stand);
+            rate = rate.max((stiffness * inertia).sqrt());
+            let force = spring.force + spring.drag;
+            for (i, share) in spring.shares() {
+                sums.fx[i] += share * force * spring.way[0];
+                sums.fy[i] += share * force * spring.way[1];
+                sums.fz[i] += share * force * spring.way[2];
+                touched[i] = true;
+                active[mesh.piece_of(i)] = true;
+            }
+        }
+        rate
+    }
+
+    /// Viscous heat over the mean velocity of the step. Returns the work on the springs.
+    pub fn work(&self, mesh: &Mesh, derived: &Derived, dt: f64, sums: &mut Sums) -> f64 {
+        let mean = [&derived.mx[..], &derived.my, &derived.mz];
+        let mut work = 0.0;
+        for spring in self.springs.iter().filter(|spring| spring.force > 0.0) {
+            let way = dt * spring.approach(mesh, mean);
+            work += way * spring.force;
+            for (i, share) in spring.shares() {
+                sums.heat[i] += 0.5 * share.abs() * spring.drag * way;
+            }
+        }
+        work
+    }
+
+    /// Energy of the springs, half to each body.
+    pub fn stored(&self, mesh: &Mesh, contacts: &Contacts) -> Vec<f64> {
+        let mut all = vec![0.0; mesh.bodies.len()];
+        let mut now = self.clone();
+        now.look(mesh, contacts);
+        for spring in &now.springs {
+            all[spring.body] += 0.5 * spring.energy();
+            all[spring.other] += 0.5 * spring.energy();
+        }
+        all
+    }
+
+    /// After elements died: the energy of springs on them becomes heat, and particles that stand
+    /// close to the surfaces that appear feel them from there on. Returns the heat.
+    pub fn release(&mut self, mesh: &Mesh, contacts: &Contacts, u: &mut [f64]) -> f64 {
+        if !self.some {
+            return 0.0;
+        }
+        let before = std::mem::take(&mut self.springs);
+        let mut sound = vec![false; contacts.members()];
+        let mut heat = 0.0;
+        for mut spring in before {
+            let face = spring.face;
+            if mesh.held(face.cell) {
+                sound[spring.member] = spring.force > 0.0;
+            } else if spring.see(contacts) {
+                let energy = spring.energy();
+                for (i, share) in spring.shares() {
+                    u[i] += 0.5 * share.abs() * energy / mesh.mass[i];
+                }
+                heat += energy;
+            }
+        }
+        self.look(mesh, contacts);
+        for spring in self.springs.iter().filter(|spring| !sound[spring.member]) {
+            self.stand[spring.member] = spring.distance.min(spring.stand);
+        }
+        heat
+    }
+
+    /// Finds the springs at the present positions.
+    fn look(&mut self, mesh: &Mesh, contacts: &Contacts) {
+        self.springs.clear();
+        if !self.some {
+            return;
+        }
+        self.stand.resize(contacts.members(), f64::INFINITY);
+        self.nearest.clear();
+        self.nearest.resize(contacts.members(), (f64::INFINITY, NONE));
+        for &[a, b] in contacts.list() {
+            let (one, other) = (contacts.member(a as usize), contacts.member(b as usize));
+            let bodies = [one.body, other.body];
+            if one.exposed && other.exposed && meet(mesh, [one.particle, other.particle], bodies) {
+                let square = (0..3).map(|d| (one.position[d] - other.position[d]).powi(2)).sum();
+                for (member, node, held) in [(a, b, other.particle), (b, a, one.particle)] {
+                    let nearest = &mut self.nearest[member as usize];
+                    if mesh.held(held) && square < nearest.0 {
+                        *nearest = (square, node);
+                    }
+                }
+            }
+        }
+        for member in 0..self.nearest.len() {
+            let node = self.nearest[member].1;
+            if node == NONE {
+                self.stand[member] = f64::INFINITY;
+                continue;
+            }
+            let (one, node) = (contacts.member(member), contacts.member(node as usize));
+            let Some(mut spring) = nearest_face((mesh, contacts), member, &one, &node) else {
+                continue;
+            };
+            let edges = mesh.bodies[one.body].edge() + mesh.bodies[node.body].edge();
+            let full = STAND * 0.5 * edges;
+            let stand = &mut self.stand[member];
+            *stand = if *stand < CLOSE * full {
+                spring.distance.min(full)
+            } else {
+                stand.max(spring.distance).min(full)
+            };
+            if *stand >= CLOSE * full {
+                spring.stand = *stand;
+                self.springs.push(spring);
+            }
+        }
+    }
+}
+
+/// Impedance times area, and sound speed: means of the particle and the surface. A particle stands for
+/// as much of a flat surface as its volume over half a cell's edge.
+fn resistance(mesh: &Mesh, derived: &Derived, spring: &Spring) -> (f64, f64) {
+    let of = |i: usize, body: usize| {
+        let area = mesh.mass[i] / (0.5 * mesh.bodies[body].edge());
+        (area * derived.sound[i], derived.sound[i])
+    };
+    let (mut impedance, mut sound) = of(spring.particle, spring.body);
+    for (&j, share) in spring.face.nodes.iter().zip(spring.share) {
+        let (z, c) = of(j, spring.other);
+        impedance += share * z;
+        sound += share * c;
+    }
+    (0.5 * impedance, 0.5 * sound)
+}
+
+/// The spring on the nearest of the faces round a node.
+fn nearest_face(
+    (mesh, contacts): (&Mesh, &Contacts),
+    member: usize,
+    one: &Member,
+    node: &Member,
+) -> Option<Spring> {
+    let soft = |body: usize| mesh.bodies[body].rho_0 * mesh.bodies[body].solid.sound.powi(2);
+    let edge = mesh.bodies[one.body].edge();
+    let volume = mesh.mass[one.particle] / mesh.bodies[one.body].rho_0;
+    // A node of a flat surface has a quarter of a cell.
+    let area = 4.0 * volume / edge;
+    let series = 1.0 / (1.0 / soft(one.body) + 1.0 / soft(node.body));
+    let mut best: Option<Spring> = None;
+    each_face(mesh, node.body, node.place, |face| {
+        let mut spring = Spring {
+            member,
+            particle: one.particle,
+            body: one.body,
+            other: node.body,
+            face,
+            share: [0.0; 4],
+            way: [0.0; 3],
+            distance: f64::INFINITY,
+            stand: 0.0,
+            area,
+            stiffness: STIFFNESS * edge * series,
+            force: 0.0,
+            drag: 0.0,
+        };
+        if spring.see(contacts) && best.as_ref().is_none_or(|best| spring.distance < best.distance)
+        {
+            best = Some(spring);
+        }
+    });
+    best.filter(|spring| spring.distance > 0.0)
+}
+
+/// Calls for every face of the live surface of a body round a node.
+fn each_face(mesh: &Mesh, body: usize, at: [i16; 3], mut f: impl FnMut(Face)) {
+    let own = &mesh.bodies[body];
+    let live = |at: [i16; 3]| {
+        let cell = own.lattice.cell(at);
+        let cell = (cell != NONE).then(|| own.centroids.start + cell as usize)?;
+        mesh.held(cell).then_some(cell)
+    };
+    for corner in 0..8 {
+        let side: [i16; 3] = std::array::from_fn(|d| if corner >> d & 1 == 1 { 1 } else { -1 });
+        let centre: [i16; 3] = std::array::from_fn(|d| at[d] + side[d]);
+        let Some(cell) = live(centre) else { continue };
+        for axis in 0..3 {
+            let mut beyond = centre;
+            beyond[axis] -= 2 * side[axis];
+            if live(beyond).is_some() {
+                continue;
+            }
+            let nodes = [[-1, -1], [1, -1], [1, 1], [-1, 1]].map(|step: [i16; 2]| {
+                let mut node = centre;
+                node[axis] -= side[axis];
+                node[(axis + 1) % 3] += step[0];
+                node[(axis + 2) % 3] += step[1];
+                own.nodes.start + own.lattice.node(node) as usize
+            });
+            f(Face { nodes, cell });
+        }
+    }
+}
+
+impl Spring {
+    /// Finds the nearest point of the face: four triangles about its middle. Returns whether the
+    /// positions are known.
+    fn see(&mut self, contacts: &Contacts) -> bool {
+        let x = contacts.member(self.member).position;
+        let Some(corners) = corners_of(contacts, &self.face) else { return false };
+        let middle = std::array::from_fn(|d| 0.25 * corners.iter().map(|c| c[d]).sum::<f64>());
+        let mut least = f64::INFINITY;
+        for k in 0..4 {
+            let next = (k + 1) % 4;
+            let (share, r) = nearest_point(x, [corners[k], corners[next], middle]);
+            let square = dot(r, r);
+            if square < least {
+                least = square;
+                self.share = [0.25 * share[2]; 4];
+                self.share[k] += share[0];
+                self.share[next] += share[1];
+                self.distance = square.sqrt();
+                self.way = r.map(|r| r / self.distance);
+            }
+        }
+        true
+    }
+}
+
+/// Where the corners of a face are, if that is known: those of live surfaces are.
+fn corners_of(contacts: &Contacts, face: &Face) -> Option<[[f64; 3]; 4]> {
+    let mut corners = [[0.0; 3]; 4];
+    for (corner, &node) in corners.iter_mut().zip(&face.nodes) {
+        *corner = contacts.member(contacts.find(node)?).position;
+    }
+    Some(corners)
+}
+
+fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    std::array::from_fn(|d| a[d] - b[d])
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+/// Shares of the corners in the point of a triangle nearest to `x`, and the way from there to `x`.
+fn nearest_point(x: [f64; 3], corners: [[f64; 3]; 3]) -> ([f64; 3], [f64; 3]) {
+    let away = |share: [f64; 3]| {
+        let point = |d: usize| (0..3).map(|k| share[k] * corners[k][d]).sum::<f64>();
+        (share, std::array::from_fn(|d| x[d] - point(d)))
+    };
+    let (e, f, r) =
+        (minus(corners[1], corners[0]), minus(corners[2], corners[0]), minus(x, corners[0]));
+    let (ee, ef, ff, re, rf) = (dot(e, e), dot(e, f), dot(f, f), dot(r, e), dot(r, f));
+    let area = ee * ff - ef * ef;
+    let (v, w) = (ff * re - ef * rf, ee * rf - ef * re);
+    if area > 0.0 && v >= 0.0 && w >= 0.0 && v + w <= area {
+        let (v, w) = (v / area, w / area);
+        return away([1.0 - v - w, v, w]);
+    }
+    let edge = |a: usize, b: usize| {
+        let along = minus(corners[b], corners[a]);
+        let length = dot(along, along);
+        let t = dot(minus(x, corners[a]), along) / length.max(f64::MIN_POSITIVE);
+        let t = t.clamp(0.0, 1.0);
+        let mut share = [0.0; 3];
+        share[a] = 1.0 - t;
+        share[b] = t;
+        away(share)
+    };
+    let nearer = |a: ([f64; 3], [f64; 3]), b: ([f64; 3], [f64; 3])| {
+        if dot(b.1, b.1) < dot(a.1, a.1) { b } else { a }
+    };
+    nearer(nearer(edge(0, 1), edge(1, 2)), edge(2, 0))
+}
