@@ -300,7 +300,7 @@ impl Group {
     pub fn fetch<F: Lanes>(&self) {
         let lines = std::slice::from_ref(self);
         F::fetch(lines);
-        for eight in [&self.plastic[..], &self.stress, &self.piola, &self.tension, &self.bonds] {
+        for eight in [&self.plastic[..], &self.stress, &self.bonds] {
             for line in 0..eight.len() {
                 F::fetch(&eight[line..]);
             }
@@ -425,7 +425,8 @@ impl Group {
         let mut rate_squared = F::zero();
         if body.solid.mu > 0.0 {
             freed += self.shear(body, &motion, (mean, intact, laws.dt));
-            motion.forces(&self.piola, body, live, &mut loads.force);
+            let stress = each(|k| F::of(self.stress[k]));
+            motion.forces(&stress, body, live, &mut loads.force);
             // Twice the rate at which longitudinal waves cross the cell, stretched.
             let crossing = 2.0 * body.solid.sound / body.solid.edge;
             rate_squared = motion.stretch_squared() * (crossing * crossing);
@@ -438,9 +439,7 @@ impl Group {
 
         let mut push = [F::zero(); 6];
         for k in 0..6 {
-            let tension = (intact * body.solid.bulk * opening[k].max(F::zero())).keep(live);
-            self.tension[k] = tension.pack();
-            push[k] = -tension;
+            push[k] = -tension(opening[k], intact, body).keep(live);
         }
         let mut damping = F::zero();
         if laws.volumes {
@@ -513,7 +512,9 @@ impl Group {
             let factor = 9.0 * laws.method.visc_volume * body.rho_0;
             let square = closing * closing / dot(&pyramids[k].area, &pyramids[k].area);
             let q = square * factor / (volume * volume);
-            self.stiff[k] = q.pack();
+            if let Some(stiff) = &mut self.stiff {
+                stiff[k] = q.pack();
+            }
             push[k] += q;
         }
     }
@@ -598,13 +599,9 @@ impl Group {
         let mut own =
             Flowing { strain: &mut self.strain, flow: &mut self.flow, rate: &mut self.rate };
         let stress = body.solid.flow(&total, &mut plastic, &mut own, &load);
-        let piola = motion.piola(&stress, body);
         for k in 0..6 {
             self.stress[k] = stress[k].pack();
             self.plastic[k] = plastic[k].pack();
-        }
-        for (own, piola) in self.piola.iter_mut().zip(piola) {
-            *own = piola.pack();
         }
         let step: Sym<F> = each(|k| plastic[k] - before[k]);
         let mean: Sym<F> = each(|k| (stress[k] + old[k]) * 0.5);
@@ -716,19 +713,24 @@ impl Group {
         let u: [V3<F>; 9] = self.gather_vector(displacement);
         let y = self.shape(&u, body);
         let v: [V3<F>; 9] = self.gather_vector(mean);
+        let intact = F::splat(1.0) - F::of(self.damage);
         let mut power = F::zero();
         let mut rates = [F::zero(); 6];
         for (k, face) in FACES.into_iter().enumerate() {
-            let rate = Pyramid::new(&y, face, 0.0).rate(&v, face).keep(self.live);
-            power += F::of(self.tension[k]) * rate;
+            let pyramid = Pyramid::new(&y, face, body.pyramids[k]);
+            let opening = pyramid.growth * body.per_pyramid[k];
+            let rate = pyramid.rate(&v, face).keep(self.live);
+            power += tension(opening, intact, body) * rate;
             rates[k] = rate;
         }
         if body.solid.mu > 0.0 {
+            let stress = each(|k| F::of(self.stress[k]));
+            let piola = Kinematics::new(&u, body).piola(&stress, body);
             let gradient = gradient(&v, body);
             let mut shear = F::zero();
             for row in 0..3 {
                 for (axis, gradient) in gradient.iter().enumerate() {
-                    shear += F::of(self.piola[3 * row + axis]) * gradient[row];
+                    shear += piola[3 * row + axis] * gradient[row];
                 }
             }
             power += (shear * body.cell_volume).keep(self.live);
@@ -745,9 +747,9 @@ impl Group {
                 heat[slot] = half;
                 heat[CENTRE] += half;
             }
-            if laws.method.visc_volume > 0.0 {
+            if let Some(stiff) = &self.stiff {
                 for (k, face) in FACES.into_iter().enumerate() {
-                    let warmth = F::of(self.stiff[k]) * rates[k] * -laws.dt;
+                    let warmth = F::of(stiff[k]) * rates[k] * -laws.dt;
                     heat[CENTRE] += warmth * 0.5;
                     for slot in face {
                         heat[slot] += warmth * 0.125;
@@ -760,20 +762,33 @@ impl Group {
         power.sum()
     }
 
-    /// Energy stored by lane: in shear (24), from the stress of the last step, and in tension (25).
+    /// Energy stored by lane: in shear (24), from the stress of the last step, and in tension (25),
+    /// at the positions before the last drift, which was of length `dt`.
     #[must_use]
-    pub fn stored(&self, body: &Body) -> (F8, F8) {
-        let one = F8::splat(1.0);
-        let intact = one - self.damage;
-        let mut tension = F8::ZERO;
-        let stiffness = intact * body.solid.bulk;
-        let some = stiffness.gt(F8::ZERO);
-        for k in 0..6 {
-            let energy = self.tension[k] * self.tension[k] / F8::select(some, stiffness, one);
-            tension += (energy * (0.5 * body.pyramids[k])).keep(some);
+    pub fn stored(
+        &self,
+        body: &Body,
+        (displacement, velocity): ([&[f64]; 3], [&[f64]; 3]),
+        dt: f64,
+    ) -> (F8, F8) {
+        let mut u: [V3<F8>; 9] = self.gather_vector(displacement);
+        let v: [V3<F8>; 9] = self.gather_vector(velocity);
+        for (u, v) in u.iter_mut().zip(&v) {
+            *u = sub(u, &v.map(|v| v * dt));
         }
-        ((self.shear_energy::<F8>(body) * intact).keep(self.live), tension.keep(self.live))
+        let y = self.shape(&u, body);
+        let opening =
+            each(|k| Pyramid::new(&y, FACES[k], body.pyramids[k]).growth * body.per_pyramid[k]);
+        let intact = F8::splat(1.0) - self.damage;
+        let (shear, tension) = (self.shear_energy::<F8>(body), tension_energy(body, &opening));
+        ((shear * intact).keep(self.live), (tension * intact).keep(self.live))
     }
+}
+
+/// Tension of a pyramid, Eq. (25).
+#[inline(always)]
+fn tension<F: Lanes>(opening: F, intact: F, body: &Body) -> F {
+    intact * body.solid.bulk * opening.max(F::zero())
 }
 
 /// Energy of the pyramids in tension, damage apart.
@@ -883,12 +898,13 @@ impl<F: Lanes> Kinematics<F> {
 
     /// Adds the corner forces of the shear stress, `-V_o P grad N`.
     #[inline(always)]
-    fn forces(&self, piola: &[F8; 9], body: &Body, live: Mask, force: &mut [V3<F>; 9]) {
+    fn forces(&self, stress: &Sym<F>, body: &Body, live: Mask, force: &mut [V3<F>; 9]) {
         let size = body.lattice.size;
+        let piola = self.piola(stress, body);
         for d in 0..3 {
             let along: [F; 3] = each(|axis| {
                 let scale = -0.25 * body.cell_volume / size[axis];
-                (F::of(piola[3 * d + axis]) * scale).keep(live)
+                (piola[3 * d + axis] * scale).keep(live)
             });
             let (plus, minus) = (along[1] + along[0], along[1] - along[0]);
             let (up, down) = (along[2], -along[2]);

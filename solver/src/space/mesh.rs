@@ -77,14 +77,10 @@ pub struct Group {
     pub plastic: [F8; 6],
     /// Deviatoric stress `S` of the last step.
     pub stress: [F8; 6],
-    /// Shear part of the first Piola-Kirchhoff stress, rows global.
-    pub piola: [F8; 9],
-    /// Tension of the six pyramids.
-    pub tension: [F8; 6],
     /// Viscous force over separation of the eight bonds.
     pub bonds: [F8; 8],
-    /// Viscous pressure of the six pyramids.
-    pub stiff: [F8; 6],
+    /// Viscous pressure of the six pyramids, if there is any.
+    pub stiff: Option<Box<[F8; 6]>>,
     /// First of the centroids beyond each corner, lane by lane.
     pub beyond: [u32; 8],
     /// Lanes that have a live element beyond each corner.
@@ -189,6 +185,9 @@ impl Mesh {
             mesh.areas.push(std::array::from_fn(area));
             mesh.group(&body, k, &mut groups);
             mesh.bodies.push(body);
+        }
+        if scene.method.visc_volume > 0.0 {
+            groups.iter_mut().for_each(|group| group.stiff = Some(Box::default()));
         }
         mesh.cut(&nodes);
         mesh.cut(&centroids);
@@ -448,10 +447,8 @@ impl Group {
             awake: false,
             plastic: [F8::ZERO; 6],
             stress: [F8::ZERO; 6],
-            piola: [F8::ZERO; 9],
-            tension: [F8::ZERO; 6],
             bonds: [F8::ZERO; 8],
-            stiff: [F8::ZERO; 6],
+            stiff: None,
             beyond: [0; 8],
             has_beyond: [0; 8],
             strain: F8::ZERO,

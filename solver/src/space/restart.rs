@@ -99,11 +99,10 @@ fn many_mut<const N: usize>(eights: &mut [F8; N]) -> &mut [F8] {
     eights
 }
 
-/// Stress and tension also tell the energy that is stored between steps.
-const EIGHTS: [Eights; 7] = eights! {
+/// The stress also tells the energy that is stored between steps.
+const EIGHTS: [Eights; 6] = eights! {
     plastic as many, many_mut;
     stress as many, many_mut;
-    tension as many, many_mut;
     strain as one, one_mut;
     flow as one, one_mut;
     rate as one, one_mut;
