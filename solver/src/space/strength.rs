@@ -93,16 +93,12 @@ impl Solid {
     #[inline(always)]
     fn softening<F: Lanes>(&self, theta: F) -> F {
         let one = F::splat(1.0);
-        let homologous = |reference: f64, melt: f64| {
-            let h = (theta - reference) * (1.0 / (melt - reference));
-            h.max(F::zero()).min(one)
-        };
         match self.flow {
             Some(Flow::Hardening { eta, reference, melt, .. }) => {
-                (one - homologous(reference, melt) * eta).max(F::zero())
+                (one - homologous(theta, reference, melt) * eta).max(F::zero())
             }
             Some(Flow::JohnsonCook { m, reference, melt, .. }) => {
-                let h = homologous(reference, melt);
+                let h = homologous(theta, reference, melt);
                 one - if m == 1.0 { h } else { F::of(h.pack().map(|h| h.powf(m))) }
             }
             None => one,
@@ -265,18 +261,25 @@ pub struct Load<F> {
 
 #[inline(always)]
 fn scaled<F: Lanes>(t: &Sym<F>, factor: F) -> Sym<F> {
-    each(|k| factor * t[k])
+    each!(k => factor * t[k])
 }
 
 #[inline(always)]
 fn stress_of<F: Lanes>(total: &Sym<F>, plastic: &Sym<F>, modulus: F) -> Sym<F> {
-    each(|k| modulus * (total[k] - plastic[k]))
+    each!(k => modulus * (total[k] - plastic[k]))
+}
+
+/// Temperature from the reference to the melt temperature, 0 to 1.
+#[inline(always)]
+fn homologous<F: Lanes>(theta: F, reference: f64, melt: f64) -> F {
+    let h = (theta - reference) * (1.0 / (melt - reference));
+    h.max(F::zero()).min(F::splat(1.0))
 }
 
 /// `C^p = I + 2 E^p`.
 #[inline(always)]
 fn c_of<F: Lanes>(plastic: &Sym<F>) -> Sym<F> {
-    each(|k| plastic[k] * 2.0 + if k < 3 { 1.0 } else { 0.0 })
+    each!(k => plastic[k] * 2.0 + if k < 3 { 1.0 } else { 0.0 })
 }
 
 /// `T : T / 2`, the square of the norm (40).
