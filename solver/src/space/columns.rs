@@ -4,6 +4,8 @@
 
 use std::ops::{Deref, DerefMut, Range};
 
+use super::lanes::Lanes;
+
 /// Particles of a piece of a particle loop.
 pub const PIECE: usize = 512;
 
@@ -99,9 +101,10 @@ macro_rules! columns {
                 ($slices { $($field: $field.0,)* }, $slices { $($field: $field.1,)* })
             }
 
-            /// The same slices, borrowed for less long.
-            pub fn reborrow(&mut self) -> $slices<'_> {
-                $slices { $($field: &mut *self.$field,)* }
+            /// Asks for the particle at `at`, if there is one.
+            #[inline(always)]
+            pub fn fetch<F: Lanes>(&self, at: usize) {
+                $(F::fetch(self.$field.get(at..).unwrap_or_default());)*
             }
         }
     };
@@ -126,18 +129,12 @@ columns! {
         rho,
         /// Internal energy per mass `u`, Eq. (23).
         u,
-        /// Density rate of the last step.
-        rho_rate,
-        /// Rate of the internal energy per mass of the last step.
-        u_rate,
-        /// Change of the volume of the live elements' shares.
-        volume,
     }
 }
 
 columns! {
     /// What follows from the state within a step.
-    Derived, DerivedSlices, 11 {
+    Derived, DerivedSlices, 8 {
         /// Pressure `P`.
         pressure,
         /// Pressure on the volumes of elements: `P m / (rho V)`.
@@ -150,23 +147,17 @@ columns! {
         sound,
         /// Density at the time of the positions.
         rho,
-        /// Mean velocity of the step.
-        mx,
-        /// Mean velocity, second component.
-        my,
-        /// Mean velocity, third component.
-        mz,
     }
 }
 
 columns! {
     /// Sums over elements and contacts.
-    Sums, SumsSlices, 20 {
-        /// Force.
+    Sums, SumsSlices, 14 {
+        /// Force; once the particle is kicked, the mean velocity of the step.
         fx,
-        /// Force, second component.
+        /// The same, second component.
         fy,
-        /// Force, third component.
+        /// The same, third component.
         fz,
         /// Change of the volume of the live elements' shares.
         volume,
@@ -178,6 +169,27 @@ columns! {
         rho_rate,
     }
 }
+
+impl StateSlices<'_> {
+    /// Displacements.
+    #[inline(always)]
+    #[must_use]
+    pub fn displacement(&self) -> [&[f64]; 3] {
+        [self.dx, self.dy, self.dz]
+    }
+}
+
+impl SumsSlices<'_> {
+    /// Mean velocities of the step, of particles that are kicked.
+    #[inline(always)]
+    #[must_use]
+    pub fn mean(&self) -> [&[f64]; 3] {
+        [self.fx, self.fy, self.fz]
+    }
+}
+
+/// All columns of the same particles.
+pub type AllSlices<'a> = (StateSlices<'a>, DerivedSlices<'a>, SumsSlices<'a>);
 
 /// Something that can be cut in two.
 pub trait Cut: Sized + Send {

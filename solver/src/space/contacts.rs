@@ -406,22 +406,25 @@ impl Contacts {
         }
     }
 
-    /// Density rates, pressure work and viscous heat over the mean velocity of the step.
-    pub fn work(&self, mesh: &Mesh, derived: &Derived, dt: f64, sums: &mut Sums) {
+    /// Density rates, pressure work and viscous heat over the mean velocities of the step.
+    pub fn work(
+        &self,
+        mesh: &Mesh,
+        mean: impl Fn(usize) -> [f64; 3],
+        dt: f64,
+        (rho_rate, heat): (&mut [f64], &mut [f64]),
+    ) {
         for active in self.blocks.iter().flatten() {
             let [i, j] = active.pair.map(|k| k as usize);
             let drift = mesh.drift_of(active.bodies[0] as usize, active.bodies[1] as usize);
-            let v = [
-                derived.mx[i] - derived.mx[j] + drift[0],
-                derived.my[i] - derived.my[j] + drift[1],
-                derived.mz[i] - derived.mz[j] + drift[2],
-            ];
+            let (a, b) = (mean(i), mean(j));
+            let v: [f64; 3] = std::array::from_fn(|d| a[d] - b[d] + drift[d]);
             let closing = -(active.r[0] * v[0] + active.r[1] * v[1] + active.r[2] * v[2]);
-            sums.rho_rate[i] += active.row[0] * closing;
-            sums.rho_rate[j] += active.row[1] * closing;
+            rho_rate[i] += active.row[0] * closing;
+            rho_rate[j] += active.row[1] * closing;
             let half = 0.5 * active.drag;
-            sums.heat[i] += dt * (active.push[0] + half) * closing;
-            sums.heat[j] += dt * (active.push[1] + half) * closing;
+            heat[i] += dt * (active.push[0] + half) * closing;
+            heat[j] += dt * (active.push[1] + half) * closing;
         }
     }
 

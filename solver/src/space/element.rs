@@ -5,7 +5,7 @@
 //! mid and slow axes, and the centroid. Everything is computed from displacements relative to the
 //! translation of the body, so that a body at rest in its own frame is exactly free of force.
 
-use super::columns::SumsSlices;
+use super::columns::{AllSlices, SumsSlices};
 use super::lanes::{F8, LANES, Lanes, Mask, each};
 use super::mesh::{Body, Group};
 use super::method::Method;
@@ -51,13 +51,13 @@ pub struct Read<'a> {
     pub rho: &'a [f64],
 }
 
-/// Where elements of a chunk add to the sums of its particles.
+/// Columns of the particles of a chunk that a pass writes to.
 #[derive(Debug)]
-pub struct Sink<'a> {
-    /// Sums of its nodes.
-    pub nodes: SumsSlices<'a>,
-    /// Sums of its centroids.
-    pub centres: SumsSlices<'a>,
+pub struct Sink<C> {
+    /// Of its nodes.
+    pub nodes: C,
+    /// Of its centroids.
+    pub centres: C,
     /// First node.
     pub first_node: usize,
     /// First centroid.
@@ -278,48 +278,61 @@ impl<F: Lanes> Seen<'_, F> {
     }
 }
 
-impl Sink<'_> {
-    /// Asks for the sums that a group will add to.
-    #[inline(always)]
-    pub fn fetch<F: Lanes>(&self, group: &Group) {
-        let (nodes, centres) = (&self.nodes, &self.centres);
-        for column in [&*nodes.fx, &*nodes.fy, &*nodes.fz, &*nodes.volume, &*nodes.heat] {
-            for row in group.rows {
-                F::fetch(&column[row as usize - self.first_node..]);
-            }
-        }
-        for column in [&*centres.fx, &*centres.fy, &*centres.fz, &*centres.volume, &*centres.heat] {
-            F::fetch(&column[group.centre as usize - self.first_centre..]);
-        }
-    }
-}
-
 impl Group {
-    /// Asks for the group itself.
+    /// Asks for what tells where the group's particles are.
     #[inline(always)]
     pub fn fetch<F: Lanes>(&self) {
-        let lines = std::slice::from_ref(self);
-        F::fetch(lines);
-        for eight in [&self.plastic[..], &self.stress, &self.piola, &self.tension, &self.bonds] {
-            for line in 0..eight.len() {
-                F::fetch(&eight[line..]);
+        F::fetch(&self.rows);
+        F::fetch(&self.beyond);
+    }
+
+    /// Asks for what the first pass reads and writes of the group, and for those of its particles
+    /// that no group before it has touched.
+    #[inline(always)]
+    pub fn fetch_load<F: Lanes>(&self, read: &Read<'_>, sink: &Sink<SumsSlices<'_>>) {
+        self.fetch_eights::<F>(&self.plastic);
+        self.fetch_work::<F>();
+        for eight in [&self.strain, &self.flow, &self.rate] {
+            self.fetch_eights::<F>(std::slice::from_ref(eight));
+        }
+        let (node, centre) = (self.rows[3] as usize + LANES, self.centre as usize + LANES);
+        for column in
+            read.displacement.into_iter().chain([read.grip, read.theta, read.sound, read.rho])
+        {
+            F::fetch(column.get(node..).unwrap_or_default());
+            F::fetch(column.get(centre..).unwrap_or_default());
+        }
+        for column in read.velocity {
+            F::fetch(column.get(node..).unwrap_or_default());
+            F::fetch(column.get(self.beyond[7] as usize + LANES..).unwrap_or_default());
+        }
+        let (node, centre) = (node - sink.first_node, centre - sink.first_centre);
+        for (sums, at) in [(&sink.nodes, node), (&sink.centres, centre)] {
+            for column in [&*sums.fx, &*sums.fy, &*sums.fz, &*sums.volume, &*sums.heat] {
+                F::fetch(column.get(at..).unwrap_or_default());
             }
         }
     }
 
-    /// Asks for a column at the nine slots.
+    /// Asks for what the second pass reads of the group.
     #[inline(always)]
-    pub fn fetch_column<F: Lanes>(&self, column: &[f64]) {
-        for row in self.rows {
-            F::fetch(&column[row as usize + 4..]);
+    pub fn fetch_work<F: Lanes>(&self) {
+        self.fetch_eights::<F>(&self.stress);
+        self.fetch_eights::<F>(&self.bonds);
+        self.fetch_eights::<F>(std::slice::from_ref(&self.damage));
+    }
+
+    #[inline(always)]
+    fn fetch_eights<F: Lanes>(&self, eights: &[F8]) {
+        for k in 0..eights.len() {
+            F::fetch(&eights[k..]);
         }
-        F::fetch(&column[self.centre as usize + 4..]);
     }
 
     /// A column at the nine slots.
     #[inline(always)]
     fn gather<F: Lanes>(&self, column: &[f64]) -> [F; 9] {
-        each(|slot| {
+        each!(slot => {
             let at = if slot == CENTRE { self.centre as usize } else { self.node(slot) };
             F::load(column, at)
         })
@@ -328,11 +341,28 @@ impl Group {
     /// A vector column at the nine slots.
     #[inline(always)]
     fn gather_vector<F: Lanes>(&self, columns: [&[f64]; 3]) -> [V3<F>; 9] {
+        let [x, y, z] = columns;
+        let (x, y, z): ([F; 9], [F; 9], [F; 9]) = (self.gather(x), self.gather(y), self.gather(z));
+        each!(slot => [x[slot], y[slot], z[slot]] => [F::zero(); 3])
+    }
+
+    /// A vector column at the nine slots, from those of nodes and centroids whose first are `first`.
+    #[inline(always)]
+    fn gather_own<F: Lanes>(
+        &self,
+        nodes: [&[f64]; 3],
+        centres: [&[f64]; 3],
+        first: [usize; 2],
+    ) -> [V3<F>; 9] {
         let mut out = [[F::zero(); 3]; 9];
-        for (d, column) in columns.into_iter().enumerate() {
-            let own: [F; 9] = self.gather(column);
-            for slot in 0..9 {
-                out[slot][d] = own[slot];
+        for (slot, out) in out.iter_mut().enumerate() {
+            let (columns, at) = if slot == CENTRE {
+                (centres, self.centre as usize - first[1])
+            } else {
+                (nodes, self.node(slot) - first[0])
+            };
+            for (out, column) in out.iter_mut().zip(columns) {
+                *out = F::load_some(column, at);
             }
         }
         out
@@ -341,18 +371,13 @@ impl Group {
     /// Adds the corners' values to a column of nodes whose first is `first`.
     #[inline(always)]
     fn scatter<F: Lanes>(&self, values: &[F; 9], to: &mut [f64], first: usize) {
+        let own = Mask::MAX >> (LANES - self.lanes as usize);
         for row in 0..4 {
             let at = self.rows[row] as usize - first;
-            let (low, high) = (values[2 * row], values[2 * row + 1]);
-            if self.lanes as usize == LANES {
-                (F::load(to, at) + (low + high.shifted())).store(to, at);
-                to[at + LANES] += high.pack().0[LANES - 1];
-            } else {
-                let (low, high) = (low.pack(), high.pack());
-                for k in 0..self.lanes as usize {
-                    to[at + k] += low.0[k];
-                    to[at + k + 1] += high.0[k];
-                }
+            let (low, high) = (values[2 * row].keep(own), values[2 * row + 1].keep(own));
+            (low + high.shifted()).add_some(to, at);
+            if let Some(last) = to.get_mut(at + LANES) {
+                *last += high.pack().0[LANES - 1];
             }
         }
     }
@@ -360,14 +385,12 @@ impl Group {
     /// Adds the centroids' values to a column of centroids whose first is `first`.
     #[inline(always)]
     fn scatter_centre<F: Lanes>(&self, value: F, to: &mut [f64], first: usize) {
-        let at = self.centre as usize - first;
-        for (to, value) in to[at..].iter_mut().zip(value.pack().0).take(self.lanes as usize) {
-            *to += value;
-        }
+        let own = Mask::MAX >> (LANES - self.lanes as usize);
+        value.keep(own).add_some(to, self.centre as usize - first);
     }
 
     #[inline(always)]
-    fn scatter_vector<F: Lanes>(&self, values: &[V3<F>; 9], sink: &mut Sink<'_>) {
+    fn scatter_vector<F: Lanes>(&self, values: &[V3<F>; 9], sink: &mut Sink<SumsSlices<'_>>) {
         let (nodes, centres) = (&mut sink.nodes, &mut sink.centres);
         let columns = [
             (&mut *nodes.fx, &mut *centres.fx),
@@ -375,7 +398,7 @@ impl Group {
             (&mut *nodes.fz, &mut *centres.fz),
         ];
         for (d, (node, centre)) in columns.into_iter().enumerate() {
-            let own: [F; 9] = each(|slot| values[slot][d]);
+            let own: [F; 9] = each!(slot => values[slot][d]);
             self.scatter(&own, node, sink.first_node);
             self.scatter_centre(own[CENTRE], centre, sink.first_centre);
         }
@@ -400,7 +423,7 @@ impl Group {
         body: &Body,
         laws: &Laws,
         read: &Read<'_>,
-        sink: &mut Sink<'_>,
+        sink: &mut Sink<SumsSlices<'_>>,
     ) -> Demand {
         let live = self.live;
         let u: [V3<F>; 9] = self.gather_vector(read.displacement);
@@ -413,7 +436,7 @@ impl Group {
         for k in 0..6 {
             pyramids[k] = Pyramid::new(&y, FACES[k], body.pyramids[k]);
         }
-        let opening: [F; 6] = each(|k| pyramids[k].growth * body.per_pyramid[k]);
+        let opening: [F; 6] = each!(k => pyramids[k].growth * body.per_pyramid[k]);
         let corners = ((theta[0] + theta[1]) + (theta[2] + theta[3]))
             + ((theta[4] + theta[5]) + (theta[6] + theta[7]));
         let mean = theta[CENTRE] * 0.5 + corners * 0.0625;
@@ -425,7 +448,8 @@ impl Group {
         let mut rate_squared = F::zero();
         if body.solid.mu > 0.0 {
             freed += self.shear(body, &motion, (mean, intact, laws.dt));
-            motion.forces(&self.piola, body, live, &mut loads.force);
+            let stress = each!(k => F::of(self.stress[k]));
+            motion.forces(&stress, body, live, &mut loads.force);
             // Twice the rate at which longitudinal waves cross the cell, stretched.
             let crossing = 2.0 * body.solid.sound / body.solid.edge;
             rate_squared = motion.stretch_squared() * (crossing * crossing);
@@ -438,9 +462,7 @@ impl Group {
 
         let mut push = [F::zero(); 6];
         for k in 0..6 {
-            let tension = (intact * body.solid.bulk * opening[k].max(F::zero())).keep(live);
-            self.tension[k] = tension.pack();
-            push[k] = -tension;
+            push[k] = -tension(opening[k], intact, body).keep(live);
         }
         let mut damping = F::zero();
         if laws.volumes {
@@ -478,7 +500,7 @@ impl Group {
         pyramids: &[Pyramid<F>; 6],
         (laws, read): (&Laws, &Read<'_>),
         push: &mut [F; 6],
-        sink: &mut Sink<'_>,
+        sink: &mut Sink<SumsSlices<'_>>,
     ) {
         let live = self.live;
         let grip: [F; 9] = self.gather(read.grip);
@@ -513,7 +535,9 @@ impl Group {
             let factor = 9.0 * laws.method.visc_volume * body.rho_0;
             let square = closing * closing / dot(&pyramids[k].area, &pyramids[k].area);
             let q = square * factor / (volume * volume);
-            self.stiff[k] = q.pack();
+            if let Some(stiff) = &mut self.stiff {
+                stiff[k] = q.pack();
+            }
             push[k] += q;
         }
     }
@@ -543,8 +567,9 @@ impl Group {
         let stretched = motion.stretch_squared().gt(F::splat(TORN * TORN));
         let open = motion.jacobian.gt(F::splat(OPEN)) & self.failed;
         // Faces come doubled.
-        let [sound, failed] = FLAT.map(|share| F::splat((0.5 * share * solid.edge).powi(2)));
-        let flat = (volume * volume).lt(face * F::select(self.failed, failed, sound));
+        let [sound, failed] = FLAT.map(|share| (0.5 * share * solid.edge).powi(2));
+        let least = F::select(self.failed, F::splat(failed), F::splat(sound));
+        let flat = (volume * volume).lt(face * least);
         self.dying = (crushed | stretched | open | flat) & self.live;
         self.failed |= self.dying;
     }
@@ -576,7 +601,7 @@ impl Group {
         let intact = F::splat(1.0) - F::of(self.damage);
         let stiffness = intact * intact * (4.0 * body.solid.mu);
         let some = stiffness.gt(F::zero());
-        let stress: Sym<F> = each(|k| F::of(self.stress[k]));
+        let stress: Sym<F> = each!(k => F::of(self.stress[k]));
         let energy = contract(&stress, &stress) / F::select(some, stiffness, F::splat(1.0));
         (energy * body.cell_volume).keep(some)
     }
@@ -590,24 +615,20 @@ impl Group {
         (theta, intact, dt): (F, F, f64),
     ) -> F {
         let total = motion.shear_strain();
-        let before: Sym<F> = each(|k| F::of(self.plastic[k]));
-        let old: Sym<F> = each(|k| F::of(self.stress[k]));
+        let before: Sym<F> = each!(k => F::of(self.plastic[k]));
+        let old: Sym<F> = each!(k => F::of(self.stress[k]));
         let mut plastic = before;
         let modulus = intact * (2.0 * body.solid.mu);
         let load = Load { modulus, intact, theta, live: self.live, dt };
         let mut own =
             Flowing { strain: &mut self.strain, flow: &mut self.flow, rate: &mut self.rate };
         let stress = body.solid.flow(&total, &mut plastic, &mut own, &load);
-        let piola = motion.piola(&stress, body);
         for k in 0..6 {
             self.stress[k] = stress[k].pack();
             self.plastic[k] = plastic[k].pack();
         }
-        for (own, piola) in self.piola.iter_mut().zip(piola) {
-            *own = piola.pack();
-        }
-        let step: Sym<F> = each(|k| plastic[k] - before[k]);
-        let mean: Sym<F> = each(|k| (stress[k] + old[k]) * 0.5);
+        let step: Sym<F> = each!(k => plastic[k] - before[k]);
+        let mean: Sym<F> = each!(k => (stress[k] + old[k]) * 0.5);
         contract(&mean, &step) * body.cell_volume
     }
 
@@ -706,37 +727,39 @@ impl Group {
     /// Second pass: volume rates, the viscous heat, and the power of the elements' own forces, all
     /// over the mean velocity of the step. Returns that power.
     #[inline(always)]
-    pub fn work<F: Lanes>(
-        &self,
-        body: &Body,
-        (displacement, mean): ([&[f64]; 3], [&[f64]; 3]),
-        laws: &Laws,
-        sink: &mut Sink<'_>,
-    ) -> f64 {
-        let u: [V3<F>; 9] = self.gather_vector(displacement);
+    pub fn work<F: Lanes>(&self, body: &Body, laws: &Laws, sink: &mut Sink<AllSlices<'_>>) -> f64 {
+        let first = [sink.first_node, sink.first_centre];
+        let (nodes, centres) = (&mut sink.nodes, &mut sink.centres);
+        let u: [V3<F>; 9] =
+            self.gather_own(nodes.0.displacement(), centres.0.displacement(), first);
         let y = self.shape(&u, body);
-        let v: [V3<F>; 9] = self.gather_vector(mean);
+        let v: [V3<F>; 9] = self.gather_own(nodes.2.mean(), centres.2.mean(), first);
+        let intact = F::splat(1.0) - F::of(self.damage);
         let mut power = F::zero();
         let mut rates = [F::zero(); 6];
         for (k, face) in FACES.into_iter().enumerate() {
-            let rate = Pyramid::new(&y, face, 0.0).rate(&v, face).keep(self.live);
-            power += F::of(self.tension[k]) * rate;
+            let pyramid = Pyramid::new(&y, face, body.pyramids[k]);
+            let opening = pyramid.growth * body.per_pyramid[k];
+            let rate = pyramid.rate(&v, face).keep(self.live);
+            power += tension(opening, intact, body) * rate;
             rates[k] = rate;
         }
         if body.solid.mu > 0.0 {
+            let stress = each!(k => F::of(self.stress[k]));
+            let piola = Kinematics::new(&u, body).piola(&stress, body);
             let gradient = gradient(&v, body);
             let mut shear = F::zero();
             for row in 0..3 {
                 for (axis, gradient) in gradient.iter().enumerate() {
-                    shear += F::of(self.piola[3 * row + axis]) * gradient[row];
+                    shear += piola[3 * row + axis] * gradient[row];
                 }
             }
             power += (shear * body.cell_volume).keep(self.live);
         }
         if laws.volumes {
             let share = shares(&rates, laws.method.balance);
-            self.scatter(&share, sink.nodes.volume_rate, sink.first_node);
-            self.scatter_centre(share[CENTRE], sink.centres.volume_rate, sink.first_centre);
+            self.scatter(&share, nodes.2.volume_rate, first[0]);
+            self.scatter_centre(share[CENTRE], centres.2.volume_rate, first[1]);
             let mut heat = [F::zero(); 9];
             for slot in 0..8 {
                 let r = sub(&y[slot], &y[CENTRE]);
@@ -745,35 +768,48 @@ impl Group {
                 heat[slot] = half;
                 heat[CENTRE] += half;
             }
-            if laws.method.visc_volume > 0.0 {
+            if let Some(stiff) = &self.stiff {
                 for (k, face) in FACES.into_iter().enumerate() {
-                    let warmth = F::of(self.stiff[k]) * rates[k] * -laws.dt;
+                    let warmth = F::of(stiff[k]) * rates[k] * -laws.dt;
                     heat[CENTRE] += warmth * 0.5;
                     for slot in face {
                         heat[slot] += warmth * 0.125;
                     }
                 }
             }
-            self.scatter(&heat, sink.nodes.heat, sink.first_node);
-            self.scatter_centre(heat[CENTRE], sink.centres.heat, sink.first_centre);
+            self.scatter(&heat, nodes.2.heat, first[0]);
+            self.scatter_centre(heat[CENTRE], centres.2.heat, first[1]);
         }
         power.sum()
     }
 
-    /// Energy stored by lane: in shear (24), from the stress of the last step, and in tension (25).
+    /// Energy stored by lane: in shear (24), from the stress of the last step, and in tension (25),
+    /// at the positions before the last drift, which was of length `dt`.
     #[must_use]
-    pub fn stored(&self, body: &Body) -> (F8, F8) {
-        let one = F8::splat(1.0);
-        let intact = one - self.damage;
-        let mut tension = F8::ZERO;
-        let stiffness = intact * body.solid.bulk;
-        let some = stiffness.gt(F8::ZERO);
-        for k in 0..6 {
-            let energy = self.tension[k] * self.tension[k] / F8::select(some, stiffness, one);
-            tension += (energy * (0.5 * body.pyramids[k])).keep(some);
+    pub fn stored(
+        &self,
+        body: &Body,
+        (displacement, velocity): ([&[f64]; 3], [&[f64]; 3]),
+        dt: f64,
+    ) -> (F8, F8) {
+        let mut u: [V3<F8>; 9] = self.gather_vector(displacement);
+        let v: [V3<F8>; 9] = self.gather_vector(velocity);
+        for (u, v) in u.iter_mut().zip(&v) {
+            *u = sub(u, &v.map(|v| v * dt));
         }
-        ((self.shear_energy::<F8>(body) * intact).keep(self.live), tension.keep(self.live))
+        let y = self.shape(&u, body);
+        let opening =
+            each!(k => Pyramid::new(&y, FACES[k], body.pyramids[k]).growth * body.per_pyramid[k]);
+        let intact = F8::splat(1.0) - self.damage;
+        let (shear, tension) = (self.shear_energy::<F8>(body), tension_energy(body, &opening));
+        ((shear * intact).keep(self.live), (tension * intact).keep(self.live))
     }
+}
+
+/// Tension of a pyramid, Eq. (25).
+#[inline(always)]
+fn tension<F: Lanes>(opening: F, intact: F, body: &Body) -> F {
+    intact * body.solid.bulk * opening.max(F::zero())
 }
 
 /// Energy of the pyramids in tension, damage apart.
@@ -818,6 +854,16 @@ struct Kinematics<F> {
     root: F,
 }
 
+/// `F^T F`.
+#[inline(always)]
+fn right_cauchy_green<F: Lanes>(f: &[F; 9]) -> Sym<F> {
+    let mut c = [F::zero(); 6];
+    for (c, [i, j]) in c.iter_mut().zip([[0, 0], [1, 1], [2, 2], [0, 1], [0, 2], [1, 2]]) {
+        *c = f[i] * f[j] + f[3 + i] * f[3 + j] + f[6 + i] * f[6 + j];
+    }
+    c
+}
+
 impl<F: Lanes> Kinematics<F> {
     #[inline(always)]
     fn new(u: &[V3<F>; 9], body: &Body) -> Self {
@@ -830,14 +876,12 @@ impl<F: Lanes> Kinematics<F> {
                 f[3 * row + column] = b + if row == column { 1.0 } else { 0.0 };
             }
         }
-        let row = |k: usize| [f[3 * k], f[3 * k + 1], f[3 * k + 2]];
-        let (a, b, c) = (row(0), row(1), row(2));
+        let (a, b, c) = ([f[0], f[1], f[2]], [f[3], f[4], f[5]], [f[6], f[7], f[8]]);
         let (bc, ca, ab) = (cross(&b, &c), cross(&c, &a), cross(&a, &b));
         let jacobian = dot(&a, &bc);
-        let column = |i: usize, j: usize| f[i] * f[j] + f[3 + i] * f[3 + j] + f[6 + i] * f[6 + j];
         Self {
             cofactor: [bc[0], bc[1], bc[2], ca[0], ca[1], ca[2], ab[0], ab[1], ab[2]],
-            c: [column(0, 0), column(1, 1), column(2, 2), column(0, 1), column(0, 2), column(1, 2)],
+            c: right_cauchy_green(&f),
             f,
             jacobian,
             // An inverted element has no root; it is dying, and its shear is not used.
@@ -849,7 +893,7 @@ impl<F: Lanes> Kinematics<F> {
     #[inline(always)]
     fn shear_strain(&self) -> Sym<F> {
         let q = self.root * self.root * 0.5;
-        each(|k| q * self.c[k] - if k < 3 { 0.5 } else { 0.0 })
+        each!(k => q * self.c[k] - if k < 3 { 0.5 } else { 0.0 })
     }
 
     /// Mean squared stretch without the volume, times the compression's.
@@ -866,30 +910,34 @@ impl<F: Lanes> Kinematics<F> {
         let q = self.root * self.root;
         let third = contract(s, &self.c) * (1.0 / 3.0) / self.jacobian;
         let full = [s[0], s[3], s[4], s[3], s[1], s[5], s[4], s[5], s[2]];
-        let own: [F; 9] = each(|k| {
-            let (row, column) = (k / 3, k % 3);
-            let f = &self.f[3 * row..3 * row + 3];
-            let fs = f[0] * full[column] + f[1] * full[3 + column] + f[2] * full[6 + column];
-            q * (fs - third * self.cofactor[k])
-        });
         let axes = &body.lattice.axes;
-        each(|k| {
-            let (row, column) = (k / 3, k % 3);
-            own[column] * axes[0][row]
-                + own[3 + column] * axes[1][row]
-                + own[6 + column] * axes[2][row]
-        })
+        let mut out = [F::zero(); 9];
+        for column in 0..3 {
+            let mut own = [F::zero(); 3];
+            for (row, own) in own.iter_mut().enumerate() {
+                let f = &self.f[3 * row..3 * row + 3];
+                let fs = f[0] * full[column] + f[1] * full[3 + column] + f[2] * full[6 + column];
+                *own = q * (fs - third * self.cofactor[3 * row + column]);
+            }
+            for row in 0..3 {
+                out[3 * row + column] =
+                    own[0] * axes[0][row] + own[1] * axes[1][row] + own[2] * axes[2][row];
+            }
+        }
+        out
     }
 
     /// Adds the corner forces of the shear stress, `-V_o P grad N`.
     #[inline(always)]
-    fn forces(&self, piola: &[F8; 9], body: &Body, live: Mask, force: &mut [V3<F>; 9]) {
+    fn forces(&self, stress: &Sym<F>, body: &Body, live: Mask, force: &mut [V3<F>; 9]) {
         let size = body.lattice.size;
+        let piola = self.piola(stress, body);
         for d in 0..3 {
-            let along: [F; 3] = each(|axis| {
+            let mut along = [F::zero(); 3];
+            for (axis, along) in along.iter_mut().enumerate() {
                 let scale = -0.25 * body.cell_volume / size[axis];
-                (F::of(piola[3 * d + axis]) * scale).keep(live)
-            });
+                *along = (piola[3 * d + axis] * scale).keep(live);
+            }
             let (plus, minus) = (along[1] + along[0], along[1] - along[0]);
             let (up, down) = (along[2], -along[2]);
             force[0][d] += down - plus;

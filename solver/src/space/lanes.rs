@@ -70,6 +70,23 @@ pub trait Lanes:
         Self::of(F8(out))
     }
 
+    /// The numbers from `at` on, zeros beyond the last.
+    #[inline(always)]
+    #[must_use]
+    fn load_some(from: &[f64], at: usize) -> Self {
+        if at + LANES <= from.len() { Self::load(from, at) } else { Self::of(last_of(from, at)) }
+    }
+
+    /// Adds to the numbers from `at` on, as far as there are any.
+    #[inline(always)]
+    fn add_some(self, to: &mut [f64], at: usize) {
+        if at + LANES <= to.len() {
+            (Self::load(to, at) + self).store(to, at);
+        } else {
+            add_last(&self.pack(), to, at);
+        }
+    }
+
     /// Writes the numbers from `at` on.
     #[inline(always)]
     fn store(self, to: &mut [f64], at: usize) {
@@ -141,17 +158,38 @@ pub trait Lanes:
     }
 }
 
-/// Values of a function of the index. (The array methods of the standard library are not inlined into
-/// wide functions.)
-#[inline(always)]
-#[must_use]
-pub fn each<F: Lanes, const N: usize>(f: impl Fn(usize) -> F) -> [F; N] {
-    let mut out = [F::zero(); N];
-    for (k, out) in out.iter_mut().enumerate() {
-        *out = f(k);
-    }
+/// The numbers from `at` on, fewer than eight, and zeros.
+#[cold]
+#[inline(never)]
+fn last_of(from: &[f64], at: usize) -> F8 {
+    let mut out = F8::ZERO;
+    let left = from.get(at..).unwrap_or_default();
+    out.0[..left.len()].copy_from_slice(left);
     out
 }
+
+/// Adds to the numbers from `at` on, fewer than eight.
+#[cold]
+#[inline(never)]
+fn add_last(values: &F8, to: &mut [f64], at: usize) {
+    for (to, value) in to.iter_mut().skip(at).zip(values.0) {
+        *to += value;
+    }
+}
+
+/// An array of values by the index. (Closures are not always inlined into wide functions, and then
+/// call every instruction.)
+macro_rules! each {
+    ($k:ident => $value:expr) => { each!($k => $value => Lanes::zero()) };
+    ($k:ident => $value:expr => $nothing:expr) => {{
+        let mut out = [$nothing; _];
+        for ($k, out) in out.iter_mut().enumerate() {
+            *out = $value;
+        }
+        out
+    }};
+}
+pub(super) use each;
 
 /// Bits of the estimate of [`Lanes::root_seed`]: minus a third of the upper half, as a multiplication.
 pub(super) const SEED: u64 = 0x553e_f0ff;

@@ -143,8 +143,12 @@ impl Simulation {
     #[must_use]
     pub fn holdings(&self) -> Vec<Holdings> {
         let mut all: Vec<Holdings> = (0..self.mesh.bodies.len()).map(|k| self.carried(k)).collect();
+        let state = &self.state;
+        let displacement: [&[f64]; 3] = [&state.dx, &state.dy, &state.dz];
+        let velocity: [&[f64]; 3] = [&state.vx, &state.vy, &state.vz];
         for group in &self.groups {
-            let (shear, tension) = group.stored(&self.mesh.bodies[group.body as usize]);
+            let body = &self.mesh.bodies[group.body as usize];
+            let (shear, tension) = group.stored(body, (displacement, velocity), self.dt);
             all[group.body as usize].shear += shear.sum();
             all[group.body as usize].tension += tension.sum();
         }

@@ -16,6 +16,10 @@ use super::strength::Solid;
 /// Fewest groups of a chunk.
 const CHUNK_GROUPS: usize = 40;
 
+/// Fewest slow planes of a chunk: between those that it shares with its neighbours it has one of its
+/// own, so that chunks of one colour have no eight in common.
+const CHUNK_PLANES: usize = 2;
+
 /// What all particles and elements of a body share.
 #[derive(Debug, Clone)]
 pub struct Body {
@@ -77,14 +81,10 @@ pub struct Group {
     pub plastic: [F8; 6],
     /// Deviatoric stress `S` of the last step.
     pub stress: [F8; 6],
-    /// Shear part of the first Piola-Kirchhoff stress, rows global.
-    pub piola: [F8; 9],
-    /// Tension of the six pyramids.
-    pub tension: [F8; 6],
     /// Viscous force over separation of the eight bonds.
     pub bonds: [F8; 8],
-    /// Viscous pressure of the six pyramids.
-    pub stiff: [F8; 6],
+    /// Viscous pressure of the six pyramids, if there is any.
+    pub stiff: Option<Box<[F8; 6]>>,
     /// First of the centroids beyond each corner, lane by lane.
     pub beyond: [u32; 8],
     /// Lanes that have a live element beyond each corner.
@@ -104,12 +104,15 @@ pub struct Group {
 pub struct Chunk {
     /// Its groups.
     pub groups: Range<usize>,
-    /// Nodes that they touch.
+    /// Nodes that they touch, in whole eights.
     pub nodes: Range<usize>,
-    /// Centroids that they touch, counted among all particles.
+    /// Centroids that they touch, counted among all particles, in whole eights.
     pub centres: Range<usize>,
-    /// Body.
-    pub body: usize,
+    /// Nodes and centroids that are kicked with it: of each eight, with the first chunk that touches
+    /// it, where those of even number come before the others.
+    pub kick: [Range<usize>; 2],
+    /// Nodes and centroids that respond with it: with the last chunk that touches them.
+    pub respond: [Range<usize>; 2],
 }
 
 /// Particles of one kind of one body, inert ones included, worked on together.
@@ -190,6 +193,9 @@ impl Mesh {
             mesh.group(&body, k, &mut groups);
             mesh.bodies.push(body);
         }
+        if scene.method.visc_volume > 0.0 {
+            groups.iter_mut().for_each(|group| group.stiff = Some(Box::default()));
+        }
         mesh.cut(&nodes);
         mesh.cut(&centroids);
         (mesh, groups)
@@ -210,6 +216,8 @@ impl Mesh {
         let lattice = &body.lattice;
         let mut chunk_start = groups.len();
         let mut first_plane = 0;
+        // Where the chunk before ends.
+        let mut lower = [0; 2];
         let planes = lattice.cells[2];
         let mut runs = lattice.runs.iter().peekable();
         for plane in 0..planes {
@@ -223,14 +231,30 @@ impl Mesh {
                     groups.push(group);
                 }
             }
-            if groups.len() - chunk_start >= CHUNK_GROUPS || plane + 1 == planes {
+            let enough = groups.len() - chunk_start >= CHUNK_GROUPS
+                && plane + 1 - first_plane >= CHUNK_PLANES
+                && plane + 1 + CHUNK_PLANES <= planes;
+            if enough || plane + 1 == planes {
                 let node = |plane: usize| body.nodes.start + lattice.node_planes[plane];
                 let cell = |plane: usize| body.centroids.start + lattice.cell_planes[plane];
+                let from = [node(first_plane), cell(first_plane)];
+                let upper = [node(plane + 1), cell(plane + 1)];
+                let own = [from[0]..node(plane + 2), from[1]..upper[1]];
+                let touched = own.map(|own| eights_round(&own));
+                let inner = [0, 1].map(|kind| {
+                    // At the ends of the body there is no neighbour.
+                    let low = if first_plane == 0 { from[kind] } else { lower[kind] };
+                    let high = if plane + 1 == planes { touched[kind].end } else { upper[kind] };
+                    low.next_multiple_of(LANES)..high / LANES * LANES
+                });
+                let even = self.chunks.len().is_multiple_of(2);
+                lower = [node(plane + 2), upper[1]];
                 self.chunks.push(Chunk {
                     groups: chunk_start..groups.len(),
-                    nodes: node(first_plane)..node(plane + 2),
-                    centres: cell(first_plane)..cell(plane + 1),
-                    body: index,
+                    nodes: touched[0].clone(),
+                    centres: touched[1].clone(),
+                    kick: if even { touched.clone() } else { inner.clone() },
+                    respond: if even { inner } else { touched },
                 });
                 (chunk_start, first_plane) = (groups.len(), plane + 1);
             }
@@ -429,6 +453,11 @@ impl Body {
     }
 }
 
+/// The eights that a range lies in.
+fn eights_round(range: &Range<usize>) -> Range<usize> {
+    range.start / LANES * LANES..range.end.next_multiple_of(LANES)
+}
+
 /// Corners of a cell from its centre; slot `b1 + 2 b2 + 4 b3` for the bits along the axes.
 fn corners(lattice: &Lattice) -> [[f64; 3]; 8] {
     std::array::from_fn(|slot| {
@@ -455,10 +484,8 @@ impl Group {
             awake: false,
             plastic: [F8::ZERO; 6],
             stress: [F8::ZERO; 6],
-            piola: [F8::ZERO; 9],
-            tension: [F8::ZERO; 6],
             bonds: [F8::ZERO; 8],
-            stiff: [F8::ZERO; 6],
+            stiff: None,
             beyond: [0; 8],
             has_beyond: [0; 8],
             strain: F8::ZERO,

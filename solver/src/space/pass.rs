@@ -1,63 +1,79 @@
-//! The two passes over elements: loads on the particles, and the work of the step's mean velocity.
+//! The two passes over elements: loads on the particles, and their motion over the step.
 //!
 //! Chunks of one colour touch no common particle, so all even chunks go at once, then all odd ones.
+//! Each runs through memory once, from the first slow plane to the last.
 
-use super::columns::SumsSlices;
+use super::columns::{AllSlices, Cut, SumsSlices};
 use super::dispatch::{Instructions, Kernel};
 use super::element::{Demand, Laws, Read, Sink};
-use super::lanes::Lanes;
+use super::lanes::{LANES, Lanes};
 use super::mesh::{Chunk, Group, Mesh};
+use super::sweep::{Allowed, Particles};
 
 /// Groups between the one that is worked on and the one that is asked for.
-const AHEAD: usize = 1;
+const AHEAD: usize = 3;
 
-/// A pass over elements.
-pub trait Pass: Sync {
+/// Particles that are kicked earlier than need be: what has just been written is slow to read if it
+/// is cut otherwise.
+const LEAD: usize = 4 * LANES;
+
+/// Colours of the chunks.
+pub const COLOURS: [usize; 2] = [0, 1];
+
+/// A pass over elements that writes to columns `C`.
+pub trait Pass<C>: Sync {
     /// Result of a chunk.
     type Output: Copy + Send + Sync;
     /// Result of nothing.
     const NONE: Self::Output;
     /// What is done with a group.
-    fn group<F: Lanes>(&self, group: &mut Group, mesh: &Mesh, sink: &mut Sink<'_>) -> Self::Output;
-    /// Asks for what a group will read.
-    fn fetch<F: Lanes>(&self, group: &Group);
+    fn group<F: Lanes>(&self, group: &mut Group, mesh: &Mesh, sink: &mut Sink<C>) -> Self::Output;
+    /// Asks for what a group will read and write.
+    fn fetch<F: Lanes>(&self, group: &Group, sink: &Sink<C>);
     /// Joins two results.
     fn and(one: Self::Output, other: Self::Output) -> Self::Output;
+
+    /// What is done with particles before a group, or after the last one.
+    #[inline(always)]
+    fn particles<F: Lanes>(
+        &self,
+        _: Option<&Group>,
+        _: &mut Wave,
+        _: &mut Sink<C>,
+    ) -> Self::Output {
+        Self::NONE
+    }
 }
 
-/// Groups, and the sums of nodes and of centroids: cut by the chunks of one colour.
-struct Cuttable<'a> {
+/// How far a pass has come with the particles of a chunk, nodes and centroids: up to where they are
+/// kicked before the first element that they belong to, and respond after the last.
+pub struct Wave {
+    kick: [std::ops::Range<usize>; 2],
+    respond: [std::ops::Range<usize>; 2],
+}
+
+/// Groups, and the columns of nodes and of centroids: cut by the chunks of one colour.
+struct Cuttable<'a, C> {
     groups: &'a mut [Group],
-    nodes: SumsSlices<'a>,
-    centres: SumsSlices<'a>,
+    nodes: C,
+    centres: C,
     /// First group, node and centroid of what is held.
     from: [usize; 3],
 }
 
-/// Runs a pass over all awake groups.
-pub fn over_elements<P: Pass>(
+/// Runs a pass over all awake groups of one colour.
+pub fn over_elements<C: Cut, P: Pass<C>>(
     pass: &P,
-    mesh: &Mesh,
+    (mesh, colour): (&Mesh, usize),
     groups: &mut [Group],
-    sums: SumsSlices<'_>,
+    columns: C,
     instructions: Instructions,
 ) -> P::Output {
-    let (mut nodes, mut centres) = sums.split_at(mesh.first_centroid);
-    let mut out = P::NONE;
-    for colour in 0..2 {
-        let all = Cuttable {
-            groups: &mut *groups,
-            nodes: nodes.reborrow(),
-            centres: centres.reborrow(),
-            from: [0, 0, mesh.first_centroid],
-        };
-        let chunks = mesh.chunks.len().saturating_sub(colour).div_ceil(2);
-        let coloured = Coloured { pass, mesh, colour, instructions };
-        if let Some(one) = coloured.run(all, 0..chunks) {
-            out = P::and(out, one);
-        }
-    }
-    out
+    let (nodes, centres) = columns.cut(mesh.first_centroid);
+    let all = Cuttable { groups, nodes, centres, from: [0, 0, mesh.first_centroid] };
+    let chunks = mesh.chunks.len().saturating_sub(colour).div_ceil(2);
+    let coloured = Coloured { pass, mesh, colour, instructions };
+    coloured.run(all, 0..chunks).unwrap_or(P::NONE)
 }
 
 struct Coloured<'a, P> {
@@ -67,12 +83,15 @@ struct Coloured<'a, P> {
     instructions: Instructions,
 }
 
-impl<P: Pass> Coloured<'_, P> {
+impl<P> Coloured<'_, P> {
     fn chunk(&self, k: usize) -> &Chunk {
         &self.mesh.chunks[2 * k + self.colour]
     }
 
-    fn run(&self, held: Cuttable<'_>, range: std::ops::Range<usize>) -> Option<P::Output> {
+    fn run<C: Cut>(&self, held: Cuttable<'_, C>, range: std::ops::Range<usize>) -> Option<P::Output>
+    where
+        P: Pass<C>,
+    {
         if range.is_empty() {
             return None;
         }
@@ -94,13 +113,13 @@ impl<P: Pass> Coloured<'_, P> {
     }
 }
 
-impl<'a> Cuttable<'a> {
+impl<C: Cut> Cuttable<'_, C> {
     /// What comes before a chunk, and the chunk with all after it.
     fn cut(self, chunk: &Chunk) -> (Self, Self) {
         let at = [chunk.groups.start, chunk.nodes.start, chunk.centres.start];
         let groups = self.groups.split_at_mut(at[0] - self.from[0]);
-        let nodes = self.nodes.split_at(at[1] - self.from[1]);
-        let centres = self.centres.split_at(at[2] - self.from[2]);
+        let nodes = self.nodes.cut(at[1] - self.from[1]);
+        let centres = self.centres.cut(at[2] - self.from[2]);
         (
             Self { groups: groups.0, nodes: nodes.0, centres: centres.0, from: self.from },
             Self { groups: groups.1, nodes: nodes.1, centres: centres.1, from: at },
@@ -108,38 +127,42 @@ impl<'a> Cuttable<'a> {
     }
 }
 
-struct Whole<'a, 'b, P> {
+struct Whole<'a, 'b, P, C> {
     coloured: &'a Coloured<'a, P>,
     chunk: &'a Chunk,
-    held: Cuttable<'b>,
+    held: Cuttable<'b, C>,
 }
 
-impl<P: Pass> Kernel for Whole<'_, '_, P> {
+impl<C, P: Pass<C>> Kernel for Whole<'_, '_, P, C> {
     type Output = P::Output;
 
     #[inline(always)]
     fn run<F: Lanes>(self) -> P::Output {
         let Self { coloured, chunk, held } = self;
+        let (pass, mesh) = (coloured.pass, coloured.mesh);
         let mut sink = Sink {
             nodes: held.nodes,
             centres: held.centres,
             first_node: held.from[1],
             first_centre: held.from[2],
         };
+        let mut wave = Wave { kick: chunk.kick.clone(), respond: chunk.respond.clone() };
         let mut out = P::NONE;
         let mut groups = &mut held.groups[..chunk.groups.len()];
         while let Some((group, rest)) = groups.split_first_mut() {
-            if let Some(next) = rest.get(AHEAD).filter(|next| next.awake && next.live != 0) {
-                next.fetch::<F>();
-                coloured.pass.fetch::<F>(next);
-                sink.fetch::<F>(next);
+            if let Some(far) = rest.get(2 * AHEAD) {
+                far.fetch::<F>();
             }
+            if let Some(next) = rest.get(AHEAD) {
+                pass.fetch::<F>(next, &sink);
+            }
+            out = P::and(out, pass.particles::<F>(Some(group), &mut wave, &mut sink));
             if group.awake && group.live != 0 {
-                out = P::and(out, coloured.pass.group::<F>(group, coloured.mesh, &mut sink));
+                out = P::and(out, pass.group::<F>(group, mesh, &mut sink));
             }
             groups = rest;
         }
-        out
+        P::and(out, pass.particles::<F>(None, &mut wave, &mut sink))
     }
 }
 
@@ -151,23 +174,24 @@ pub struct Load<'a> {
     pub read: Read<'a>,
 }
 
-impl Pass for Load<'_> {
+impl<'c> Pass<SumsSlices<'c>> for Load<'_> {
     type Output = Demand;
     const NONE: Demand = Demand::NONE;
 
     #[inline(always)]
-    fn group<F: Lanes>(&self, group: &mut Group, mesh: &Mesh, sink: &mut Sink<'_>) -> Demand {
+    fn group<F: Lanes>(
+        &self,
+        group: &mut Group,
+        mesh: &Mesh,
+        sink: &mut Sink<SumsSlices<'c>>,
+    ) -> Demand {
         let body = &mesh.bodies[group.body as usize];
         group.load_particles::<F>(body, &self.laws, &self.read, sink)
     }
 
     #[inline(always)]
-    fn fetch<F: Lanes>(&self, group: &Group) {
-        let read = &self.read;
-        let vectors = read.displacement.into_iter().chain(read.velocity);
-        for column in vectors.chain([read.grip, read.theta, read.sound, read.rho]) {
-            group.fetch_column::<F>(column);
-        }
+    fn fetch<F: Lanes>(&self, group: &Group, sink: &Sink<SumsSlices<'c>>) {
+        group.fetch_load::<F>(&self.read, sink);
     }
 
     #[inline(always)]
@@ -176,36 +200,80 @@ impl Pass for Load<'_> {
     }
 }
 
-/// Second pass.
-pub struct Labour<'a> {
+/// Second pass: kick, work and the end of the step.
+pub struct Motion<'a> {
     /// Laws, with the length of the kick.
     pub laws: Laws,
-    /// Displacements.
-    pub displacement: [&'a [f64]; 3],
-    /// Mean velocities of the step.
-    pub mean: [&'a [f64]; 3],
+    /// What is done with the particles.
+    pub particles: Particles<'a>,
 }
 
-impl Pass for Labour<'_> {
-    type Output = f64;
-    const NONE: f64 = 0.0;
+/// What the motion gives.
+#[derive(Debug, Clone, Copy)]
+pub struct Moved {
+    /// Power of the elements' own forces.
+    pub power: f64,
+    /// The time step that particles allow next.
+    pub allowed: Allowed,
+}
+
+impl<'c> Pass<AllSlices<'c>> for Motion<'_> {
+    type Output = Moved;
+    const NONE: Moved = Moved { power: 0.0, allowed: Allowed::ANYTHING };
 
     #[inline(always)]
-    fn group<F: Lanes>(&self, group: &mut Group, mesh: &Mesh, sink: &mut Sink<'_>) -> f64 {
+    fn group<F: Lanes>(
+        &self,
+        group: &mut Group,
+        mesh: &Mesh,
+        sink: &mut Sink<AllSlices<'c>>,
+    ) -> Moved {
         let body = &mesh.bodies[group.body as usize];
-        let motion = (self.displacement, self.mean);
-        group.work::<F>(body, motion, &self.laws, sink)
+        Moved { power: group.work::<F>(body, &self.laws, sink), ..Self::NONE }
     }
 
     #[inline(always)]
-    fn fetch<F: Lanes>(&self, group: &Group) {
-        for column in self.displacement.into_iter().chain(self.mean) {
-            group.fetch_column::<F>(column);
+    fn fetch<F: Lanes>(&self, group: &Group, _: &Sink<AllSlices<'c>>) {
+        group.fetch_work::<F>();
+    }
+
+    /// Kicks the particles of a group and all before them; those that no group from here on touches
+    /// respond.
+    #[inline(always)]
+    fn particles<F: Lanes>(
+        &self,
+        group: Option<&Group>,
+        wave: &mut Wave,
+        sink: &mut Sink<AllSlices<'c>>,
+    ) -> Moved {
+        let (mut first, mut beyond) = ([usize::MAX; 2], [usize::MAX; 2]);
+        if let Some(group) = group {
+            let lanes = group.lanes as usize;
+            first = [group.rows[0] as usize, group.centre as usize];
+            beyond =
+                [group.rows[3] as usize + 1, group.centre as usize].map(|at| at + lanes + LEAD);
         }
+        let mut allowed = Allowed::ANYTHING;
+        let columns = [(&mut sink.nodes, sink.first_node), (&mut sink.centres, sink.first_centre)];
+        for (kind, (columns, start)) in columns.into_iter().enumerate() {
+            let kick = &mut wave.kick[kind];
+            while kick.start < kick.end.min(beyond[kind]) {
+                self.particles.kick::<F>(columns, kick.start - start, kick.start);
+                kick.start += LANES;
+            }
+            let respond = &mut wave.respond[kind];
+            while respond.start + LANES <= respond.end.min(first[kind]) {
+                let own =
+                    self.particles.respond::<F>(columns, respond.start - start, respond.start);
+                allowed = allowed.and(own);
+                respond.start += LANES;
+            }
+        }
+        Moved { allowed, ..Self::NONE }
     }
 
     #[inline(always)]
-    fn and(one: f64, other: f64) -> f64 {
-        one + other
+    fn and(one: Moved, other: Moved) -> Moved {
+        Moved { power: one.power + other.power, allowed: one.allowed.and(other.allowed) }
     }
 }

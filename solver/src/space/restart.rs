@@ -16,10 +16,6 @@ use super::lanes::{F8, LANES};
 use super::mesh::Group;
 use super::simulation::Simulation;
 
-/// Columns of [`super::columns::Derived`] that the next step reads; the others are the mean
-/// velocities, which it writes first.
-const READ_AGAIN: [&str; 6] = ["pressure", "grip", "dilate", "theta", "sound", "rho"];
-
 /// A named array.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Section {
@@ -99,11 +95,10 @@ fn many_mut<const N: usize>(eights: &mut [F8; N]) -> &mut [F8] {
     eights
 }
 
-/// Stress and tension also tell the energy that is stored between steps.
-const EIGHTS: [Eights; 7] = eights! {
+/// The stress also tells the energy that is stored between steps.
+const EIGHTS: [Eights; 6] = eights! {
     plastic as many, many_mut;
     stress as many, many_mut;
-    tension as many, many_mut;
     strain as one, one_mut;
     flow as one, one_mut;
     rate as one, one_mut;
@@ -167,7 +162,7 @@ impl Simulation {
         for (name, column) in self.state.named() {
             add(&format!("state.{name}"), Values::F64(column.to_vec()));
         }
-        for (name, column) in self.derived.named().filter(|(name, _)| READ_AGAIN.contains(name)) {
+        for (name, column) in self.derived.named() {
             add(&format!("derived.{name}"), Values::F64(column.to_vec()));
         }
         for eights in EIGHTS {
@@ -269,8 +264,7 @@ impl Simulation {
     fn take(&mut self, mut from: Taken<'_>) {
         let mut fill = |column: &mut Column| column.copy_from_slice(from.f64s());
         self.state.named_mut().for_each(|(_, column)| fill(column));
-        let read_again = self.derived.named_mut().filter(|(name, _)| READ_AGAIN.contains(name));
-        read_again.for_each(|(_, column)| fill(column));
+        self.derived.named_mut().for_each(|(_, column)| fill(column));
         for eights in EIGHTS {
             eights.scatter(&mut self.groups, from.f64s());
         }

@@ -9,10 +9,10 @@ use super::lattice::cross;
 use super::ledger::Holdings;
 use super::mesh::{Group, Mesh};
 use super::method::Method;
-use super::pass::{Labour, Load, over_elements};
+use super::pass::{COLOURS, Load, Motion, Pass, over_elements};
 use super::scene::Scene;
 use super::surfaces::Surfaces;
-use super::sweep::{Allowed, Kick, Respond, Stage};
+use super::sweep::{Allowed, Particles, Respond, Stage};
 use super::walls::{Given, Wall};
 use crate::counters::Counters;
 use crate::error::{SceneError, StepError};
@@ -132,7 +132,8 @@ impl Simulation {
             groups,
             state,
         };
-        simulation.respond();
+        simulation.respond(simulation.end());
+        simulation.touch();
         simulation.active =
             (0..simulation.mesh.pieces.len()).map(|p| simulation.stirs(p)).collect();
         simulation.wake();
@@ -147,12 +148,14 @@ impl Simulation {
         self.asleep = false;
     }
 
-    /// Whether anything moves in a piece, in the frame of its body, or is under pressure.
+    /// Whether anything moves in a piece, in the frame of its body, or is pushed or under pressure.
     fn stirs(&self, piece: usize) -> bool {
         let range = self.mesh.pieces[piece].range.clone();
         let any = |column: &[f64]| column[range.clone()].iter().any(|&x| x != 0.0);
         let state = &self.state;
-        any(&state.vx) || any(&state.vy) || any(&state.vz) || any(&self.derived.pressure)
+        let moves = any(&state.vx) || any(&state.vy) || any(&state.vz);
+        let pushed = || any(&self.sums.fx) || any(&self.sums.fy) || any(&self.sums.fz);
+        moves || pushed() || any(&self.derived.pressure)
     }
 
     /// Wakes groups that touch a stirring piece, and the pieces that they touch.
@@ -184,11 +187,11 @@ impl Simulation {
     pub fn step(&mut self, until: f64) -> Result<(), StepError> {
         self.load();
         let dt = self.elect(until)?;
-        self.kick(dt);
-        // What a contact or a wall has moved strains elements in this step already.
+        self.keep_in(dt);
+        // What a contact or a wall pushes strains elements in this step already.
         self.wake();
-        self.work();
-        self.respond();
+        self.drift();
+        self.touch();
         self.time = if dt >= until - self.time { until } else { self.time + dt };
         self.bury();
         self.wake();
@@ -225,7 +228,11 @@ impl Simulation {
             },
         };
         let (mesh, groups) = (&self.mesh, &mut self.groups);
-        self.demand = over_elements(&pass, mesh, groups, self.sums.slices(), self.instructions);
+        let [even, odd] = COLOURS.map(|colour| {
+            let sums = self.sums.slices();
+            over_elements(&pass, (mesh, colour), groups, sums, self.instructions)
+        });
+        self.demand = even.and(odd);
         self.element_heat += self.demand.heat;
         let columns = (&self.state, &self.derived);
         self.contacts.push(
@@ -275,24 +282,15 @@ impl Simulation {
         })
     }
 
-    /// Velocities at the middle of the next drift, Eq. (74), walls included.
-    fn kick(&mut self, dt: f64) {
+    /// Sets the length of the step; walls push what would cross them.
+    fn keep_in(&mut self, dt: f64) {
         self.kick = 0.5 * (self.dt + dt);
         self.dt = dt;
-        let work = Kick {
-            mesh: &self.mesh,
-            active: &self.active,
-            kick: self.kick,
-            instructions: self.instructions,
-        };
-        let columns = (self.state.slices(), self.derived.slices(), self.sums.slices());
-        pieces(columns, 0, 0..self.mesh.pieces.len(), &work);
         for wall in &self.walls {
-            let columns = (&mut self.state, &mut self.derived);
             wall.keep(
                 (&self.mesh, &self.contacts),
-                columns,
-                dt,
+                (&self.state, &mut self.sums),
+                [self.kick, dt],
                 &mut self.walls_gave,
                 |i, stopped| {
                     self.active[self.mesh.piece_of(i)] = true;
@@ -302,25 +300,49 @@ impl Simulation {
         }
     }
 
-    /// Rates over the mean velocity of the step: what forces take from motion becomes heat, pressure
-    /// work and strain.
-    fn work(&mut self) {
-        let pass = Labour {
-            laws: self.laws(self.kick),
-            displacement: [&self.state.dx, &self.state.dy, &self.state.dz],
-            mean: [&self.derived.mx, &self.derived.my, &self.derived.mz],
+    /// The rest of the step in one pass through memory: velocities at the middle of the next drift,
+    /// Eq. (74); rates over the mean velocity, by which what forces take from motion becomes heat,
+    /// pressure work and strain; Eqs. (36), (58), (76), and the equation of state (22).
+    fn drift(&mut self) {
+        let (mesh, state, sums) = (&self.mesh, &self.state, &mut self.sums);
+        let half = 0.5 * self.kick;
+        let force = [&sums.fx, &sums.fy, &sums.fz];
+        let mean = |i: usize| {
+            let v = [state.vx[i], state.vy[i], state.vz[i]];
+            std::array::from_fn(|d| v[d] + half / mesh.mass[i] * force[d][i])
         };
-        let (mesh, groups) = (&self.mesh, &mut self.groups);
-        let power = over_elements(&pass, mesh, groups, self.sums.slices(), self.instructions);
-        self.element_work += self.kick * power;
-        self.contacts.work(&self.mesh, &self.derived, self.kick, &mut self.sums);
-        self.spring_work +=
-            self.surfaces.work(&self.mesh, &self.derived, self.kick, &mut self.sums);
+        self.contacts.work(mesh, mean, self.kick, (&mut sums.rho_rate, &mut sums.heat));
+        self.spring_work += self.surfaces.work(mesh, mean, self.kick, &mut sums.heat);
+        let pass = Motion {
+            laws: self.laws(self.kick),
+            particles: Particles {
+                mesh,
+                active: &self.active,
+                touched: &self.touched,
+                volumes: self.volumes,
+                stage: self.end(),
+            },
+        };
+        let groups = &mut self.groups;
+        let [even, odd] = COLOURS.map(|colour| {
+            let columns = (self.state.slices(), self.derived.slices(), self.sums.slices());
+            over_elements(&pass, (&self.mesh, colour), groups, columns, self.instructions)
+        });
+        let moved = Motion::and(even, odd);
+        self.element_work += self.kick * moved.power;
+        self.allowed = moved.allowed;
     }
 
-    /// Ends the step, Eqs. (36), (58), (76), and evaluates the equation of state (22).
-    fn respond(&mut self) {
-        self.sweep(Stage::Whole(self.kick, self.dt));
+    /// How the step ends.
+    fn end(&self) -> Stage {
+        match self.method.density {
+            Density::Kernel => Stage::Moved(self.kick, self.dt),
+            Density::Nonholonomic | Density::Hybrid => Stage::Whole(self.kick, self.dt),
+        }
+    }
+
+    /// The particles that may touch at the new positions, and the density, if they give it.
+    fn touch(&mut self) {
         for body in &mut self.mesh.bodies {
             for (way, velocity) in body.way.iter_mut().zip(body.velocity) {
                 *way += self.dt * velocity;
@@ -331,22 +353,23 @@ impl Simulation {
             let rho = &mut self.derived.rho;
             self.counters.kernel_evaluations += self.contacts.sum_density(&self.mesh, rho);
             let sane = self.allowed.sane;
-            self.sweep(Stage::State(self.dt));
+            self.respond(Stage::State(self.dt));
             self.allowed.sane = sane;
         }
         self.touched.fill(false);
     }
 
-    fn sweep(&mut self, stage: Stage) {
-        let work = Respond {
+    /// The response of all particles, elements apart.
+    fn respond(&mut self, stage: Stage) {
+        let particles = Particles {
             mesh: &self.mesh,
             active: &self.active,
             touched: &self.touched,
-            instructions: self.instructions,
             volumes: self.volumes,
             stage,
         };
         let columns = (self.state.slices(), self.derived.slices(), self.sums.slices());
+        let work = Respond(particles, self.instructions);
         if let Some(allowed) = pieces(columns, 0, 0..self.mesh.pieces.len(), &work) {
             self.allowed = allowed;
         }

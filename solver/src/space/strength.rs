@@ -93,16 +93,12 @@ impl Solid {
     #[inline(always)]
     fn softening<F: Lanes>(&self, theta: F) -> F {
         let one = F::splat(1.0);
-        let homologous = |reference: f64, melt: f64| {
-            let h = (theta - reference) * (1.0 / (melt - reference));
-            h.max(F::zero()).min(one)
-        };
         match self.flow {
             Some(Flow::Hardening { eta, reference, melt, .. }) => {
-                (one - homologous(reference, melt) * eta).max(F::zero())
+                (one - homologous(theta, reference, melt) * eta).max(F::zero())
             }
             Some(Flow::JohnsonCook { m, reference, melt, .. }) => {
-                let h = homologous(reference, melt);
+                let h = homologous(theta, reference, melt);
                 one - if m == 1.0 { h } else { F::of(h.pack().map(|h| h.powf(m))) }
             }
             None => one,
@@ -167,39 +163,31 @@ impl Solid {
         if yielding == 0 {
             return stress;
         }
-        let mut memory = each_packed(plastic);
-        let load = Load {
-            modulus: load.modulus.pack(),
-            intact: load.intact.pack(),
-            theta: load.theta.pack(),
-            live: load.live,
-            dt: load.dt,
-        };
-        self.land(&each_packed(total), &mut memory, own, (&load, soft.pack(), yielding));
-        *plastic = each(|k| F::of(memory[k]));
-        stress_of(total, plastic, F::of(load.modulus))
+        self.land(total, plastic, own, (load, soft, yielding));
+        stress_of(total, plastic, load.modulus)
     }
 
     /// Newton sweeps of the yielding lanes.
-    #[inline(never)]
-    fn land(
+    #[inline(always)]
+    fn land<F: Lanes>(
         &self,
-        total: &Sym<F8>,
-        plastic: &mut Sym<F8>,
+        total: &Sym<F>,
+        plastic: &mut Sym<F>,
         own: &mut Flowing<'_>,
-        (load, soft, yielding): (&Load<F8>, F8, Mask),
+        (load, soft, yielding): (&Load<F>, F, Mask),
     ) {
-        let (before, rate) = (*own.strain, *own.rate);
-        let tiny = F8::splat(1e-300);
+        let (before, rate) = (F::of(*own.strain), F::of(*own.rate));
+        let tiny = F::splat(1e-300);
         for _ in 0..SWEEPS {
             let stress = stress_of(total, plastic, load.modulus);
             let c_plastic = c_of(plastic);
-            let scale = F8::splat(1.0) / self.reading(&c_plastic).sqrt();
+            let scale = F::splat(1.0) / self.reading(&c_plastic).sqrt();
             let driver = scaled(&effective(&c_plastic, &stress), scale);
             let size = half_square(&driver).sqrt().max(tiny);
-            let slope = self.update(own, (&rate, yielding)) * soft;
-            let gap = size - *own.flow * soft;
-            let near = *own.flow * soft * LANDED + load.modulus * 1e-13;
+            let slope = F::of(self.update(own, (&rate.pack(), yielding))) * soft;
+            let limit = F::of(*own.flow) * soft;
+            let gap = size - limit;
+            let near = limit * LANDED + load.modulus * 1e-13;
             if gap.abs().gt(near) & yielding == 0 {
                 break;
             }
@@ -211,23 +199,24 @@ impl Solid {
             for (strain, flow) in plastic.iter_mut().zip(flow) {
                 *strain += step / size * flow;
             }
-            *own.strain = (*own.strain + step * measure).max(before);
+            *own.strain = (F::of(*own.strain) + step * measure).max(before).pack();
         }
-        let flowed = (*own.strain - before) * (1.0 / load.dt.max(1e-300));
-        *own.rate = F8::select(yielding, (rate + flowed) * 0.5, rate);
+        let flowed = (F::of(*own.strain) - before) * (1.0 / load.dt.max(1e-300));
+        *own.rate = F::select(yielding, (rate + flowed) * 0.5, rate).pack();
     }
 
     /// Effective plastic strain per increment of `lambda`: the equivalent strain for the von Mises
     /// reading, the norm (45) otherwise.
     #[inline(always)]
-    fn measure(&self, flow: &Sym<F8>, size: F8) -> F8 {
+    fn measure<F: Lanes>(&self, flow: &Sym<F>, size: F) -> F {
         match self.norm {
-            YieldNorm::Mises => F8::splat(2.0 / 3f64.sqrt()),
+            YieldNorm::Mises => F::splat(2.0 / 3f64.sqrt()),
             YieldNorm::J2 | YieldNorm::AsPrinted => half_square(flow).sqrt() / size,
         }
     }
 
     /// Sets the yield stress of the yielding lanes; its slope.
+    #[inline(never)]
     fn update(&self, own: &mut Flowing<'_>, (rate, yielding): (&F8, Mask)) -> F8 {
         let mut slope = F8::ZERO;
         for k in (0..LANES).filter(|k| yielding >> k & 1 == 1) {
@@ -271,24 +260,26 @@ pub struct Load<F> {
 }
 
 #[inline(always)]
-fn each_packed<F: Lanes>(t: &Sym<F>) -> Sym<F8> {
-    each(|k| t[k].pack())
-}
-
-#[inline(always)]
 fn scaled<F: Lanes>(t: &Sym<F>, factor: F) -> Sym<F> {
-    each(|k| factor * t[k])
+    each!(k => factor * t[k])
 }
 
 #[inline(always)]
 fn stress_of<F: Lanes>(total: &Sym<F>, plastic: &Sym<F>, modulus: F) -> Sym<F> {
-    each(|k| modulus * (total[k] - plastic[k]))
+    each!(k => modulus * (total[k] - plastic[k]))
+}
+
+/// Temperature from the reference to the melt temperature, 0 to 1.
+#[inline(always)]
+fn homologous<F: Lanes>(theta: F, reference: f64, melt: f64) -> F {
+    let h = (theta - reference) * (1.0 / (melt - reference));
+    h.max(F::zero()).min(F::splat(1.0))
 }
 
 /// `C^p = I + 2 E^p`.
 #[inline(always)]
 fn c_of<F: Lanes>(plastic: &Sym<F>) -> Sym<F> {
-    each(|k| plastic[k] * 2.0 + if k < 3 { 1.0 } else { 0.0 })
+    each!(k => plastic[k] * 2.0 + if k < 3 { 1.0 } else { 0.0 })
 }
 
 /// `T : T / 2`, the square of the norm (40).

@@ -111,14 +111,14 @@ impl Spring {
     }
 
     /// Velocity of the particle towards the surface.
-    fn approach(&self, mesh: &Mesh, v: [&[f64]; 3]) -> f64 {
+    fn approach(&self, mesh: &Mesh, velocity: impl Fn(usize) -> [f64; 3]) -> f64 {
+        let mut relative = velocity(self.particle);
         let drift = mesh.drift_of(self.body, self.other);
-        let corners = || self.face.nodes.iter().zip(&self.share);
-        let along = |d: usize| {
-            let surface: f64 = corners().map(|(&j, share)| share * v[d][j]).sum();
-            self.way[d] * (v[d][self.particle] - surface + drift[d])
-        };
-        -(along(0) + along(1) + along(2))
+        relative.iter_mut().zip(drift).for_each(|(v, drift)| *v += drift);
+        for (&j, share) in self.face.nodes.iter().zip(self.share) {
+            relative.iter_mut().zip(velocity(j)).for_each(|(v, u)| *v -= share * u);
+        }
+        -dot(self.way, relative)
     }
 
     /// Particles that take part, with their shares of the force.
@@ -160,7 +160,7 @@ impl Surfaces {
             return 0.0;
         }
         self.look(mesh, contacts);
-        let velocity = [&state.vx[..], &state.vy, &state.vz];
+        let velocity = |i: usize| [state.vx[i], state.vy[i], state.vz[i]];
         let mut rate = 0.0f64;
         for spring in &mut self.springs {
             let approach = spring.approach(mesh, velocity);
@@ -195,14 +195,19 @@ impl Surfaces {
     }
 
     /// Viscous heat over the mean velocity of the step. Returns the work on the springs.
-    pub fn work(&self, mesh: &Mesh, derived: &Derived, dt: f64, sums: &mut Sums) -> f64 {
-        let mean = [&derived.mx[..], &derived.my, &derived.mz];
+    pub fn work(
+        &self,
+        mesh: &Mesh,
+        mean: impl Fn(usize) -> [f64; 3],
+        dt: f64,
+        heat: &mut [f64],
+    ) -> f64 {
         let mut work = 0.0;
         for spring in self.springs.iter().filter(|spring| spring.force > 0.0) {
-            let way = dt * spring.approach(mesh, mean);
+            let way = dt * spring.approach(mesh, &mean);
             work += way * spring.force;
             for (i, share) in spring.shares() {
-                sums.heat[i] += 0.5 * share.abs() * spring.drag * way;
+                heat[i] += 0.5 * share.abs() * spring.drag * way;
             }
         }
         work

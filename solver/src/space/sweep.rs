@@ -1,9 +1,9 @@
-//! The two sweeps over particles: the response to the last step, and the kick.
+//! What particles do by themselves, eight at a time: the kick, and the response at the end of a step.
 
-use super::columns::{DerivedSlices, StateSlices, SumsSlices, Work};
+use super::columns::{AllSlices, DerivedSlices, Work};
 use super::dispatch::{Instructions, Kernel};
 use super::lanes::{LANES, Lanes, Mask};
-use super::mesh::{Body, Mesh, Piece};
+use super::mesh::{Body, Mesh};
 use super::simulation::CROSSING;
 
 /// Lowest density over the reference density.
@@ -20,6 +20,9 @@ const RELAXATION: f64 = 0.07;
 
 /// Density over the reference density at which a free fragment stops expanding.
 const RELAXED: f64 = 0.8;
+
+/// Particles between those that are kicked and those that are asked for.
+const AHEAD: usize = 8 * LANES;
 
 /// The time step that a particle allows.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -39,7 +42,10 @@ impl Allowed {
     pub const ANYTHING: Self =
         Self { sound: f64::INFINITY, piece: 0, density: f64::INFINITY, sane: true };
 
-    fn and(self, other: Self) -> Self {
+    /// The stricter.
+    #[must_use]
+    #[inline(always)]
+    pub fn and(self, other: Self) -> Self {
         let first = self.sound.min(self.density) <= other.sound.min(other.density);
         Self {
             sound: self.sound.min(other.sound),
@@ -50,16 +56,15 @@ impl Allowed {
     }
 }
 
-/// Ends the last step and evaluates the equation of state.
-pub struct Respond<'a> {
+/// What is done with particles.
+#[derive(Clone, Copy)]
+pub struct Particles<'a> {
     /// Mesh.
     pub mesh: &'a Mesh,
     /// Pieces to be worked on.
     pub active: &'a [bool],
     /// Particles that touched others.
     pub touched: &'a [bool],
-    /// Instructions.
-    pub instructions: Instructions,
     /// Whether elements carry the pressure, and ask for the time step that it needs.
     pub volumes: bool,
     /// What is to be done.
@@ -71,38 +76,24 @@ pub struct Respond<'a> {
 pub enum Stage {
     /// The end of a step after a kick and a drift of these lengths, and the equation of state.
     Whole(f64, f64),
+    /// The same, but rates of density and energy stay in the sums, for [`Stage::State`].
+    Moved(f64, f64),
     /// The equation of state alone, half of this long after the last kick, at densities known.
     State(f64),
 }
 
-type Columns<'a> = (StateSlices<'a>, DerivedSlices<'a>, SumsSlices<'a>);
+/// The response of all particles, piece by piece, with these instructions.
+pub struct Respond<'a>(pub Particles<'a>, pub Instructions);
 
-impl<'c> Work<Columns<'c>> for Respond<'_> {
+impl<'c> Work<AllSlices<'c>> for Respond<'_> {
     type Output = Allowed;
 
     fn start(&self, piece: usize) -> usize {
-        self.mesh.pieces[piece].range.start
+        self.0.mesh.pieces[piece].range.start
     }
 
-    fn run(&self, piece: usize, columns: Columns<'c>) -> Allowed {
-        if !self.active[piece] {
-            return Allowed { piece, ..Allowed::ANYTHING };
-        }
-        let (state, derived, sums) = columns;
-        let own = &self.mesh.pieces[piece];
-        let body = &self.mesh.bodies[own.body];
-        let range = own.range.clone();
-        let kernel = RespondPiece {
-            piece: own,
-            body,
-            mass: &self.mesh.mass[range.clone()],
-            ratio: &self.mesh.ratio[range.clone()],
-            touched: &self.touched[range],
-            columns: (state, derived, sums),
-            volumes: self.volumes,
-            stage: self.stage,
-        };
-        Allowed { piece, ..self.instructions.run(kernel) }
+    fn run(&self, piece: usize, columns: AllSlices<'c>) -> Allowed {
+        self.1.run(RespondPiece { particles: self.0, piece, columns })
     }
 
     fn join(&self, low: Allowed, high: Allowed) -> Allowed {
@@ -110,106 +101,170 @@ impl<'c> Work<Columns<'c>> for Respond<'_> {
     }
 }
 
-struct RespondPiece<'a> {
-    piece: &'a Piece,
-    body: &'a Body,
-    mass: &'a [f64],
-    ratio: &'a [f64],
-    touched: &'a [bool],
-    columns: Columns<'a>,
-    volumes: bool,
-    stage: Stage,
+struct RespondPiece<'a, 'c> {
+    particles: Particles<'a>,
+    piece: usize,
+    columns: AllSlices<'c>,
 }
 
-impl Kernel for RespondPiece<'_> {
+impl Kernel for RespondPiece<'_, '_> {
     type Output = Allowed;
 
     #[inline(always)]
     fn run<F: Lanes>(mut self) -> Allowed {
+        let range = self.particles.mesh.pieces[self.piece].range.clone();
         let mut allowed = Allowed::ANYTHING;
-        for at in (0..self.piece.range.len()).step_by(LANES) {
-            let lane = self.eight::<F>(at);
-            allowed = allowed.and(lane);
+        for i in range.clone().step_by(LANES) {
+            let own = self.particles.respond::<F>(&mut self.columns, i - range.start, i);
+            allowed = allowed.and(own);
         }
         allowed
     }
 }
 
-impl RespondPiece<'_> {
+impl Particles<'_> {
+    /// Turns the forces on the particles from `i` on, at `at` in the columns, into their mean
+    /// velocities over the step, Eq. (74).
     #[inline(always)]
-    fn eight<F: Lanes>(&mut self, at: usize) -> Allowed {
-        let (rho, u, sane) = match self.stage {
-            Stage::Whole(kick, dt) => self.end_step::<F>(at, kick, dt),
-            Stage::State(dt) => {
-                let (state, derived, _) = &self.columns;
-                let u = F::load(state.u, at) + F::load(state.u_rate, at) * (0.5 * dt);
-                (F::load(derived.rho, at), u, true)
-            }
-        };
-        Allowed { sane, ..self.evaluate(at, rho, u) }
+    pub fn kick<F: Lanes>(&self, columns: &mut AllSlices<'_>, at: usize, i: usize) {
+        let (Stage::Whole(kick, _) | Stage::Moved(kick, _)) = self.stage else { return };
+        if !self.active[self.mesh.piece_of(i)] {
+            return;
+        }
+        let (state, derived, sums) = columns;
+        state.fetch::<F>(at + AHEAD);
+        derived.fetch::<F>(at + AHEAD);
+        sums.fetch::<F>(at + AHEAD);
+        let per_mass = F::splat(0.5 * kick) / F::load(&self.mesh.mass, i);
+        for (v, force) in
+            [(&*state.vx, &mut *sums.fx), (&*state.vy, &mut *sums.fy), (&*state.vz, &mut *sums.fz)]
+        {
+            (F::load(v, at) + per_mass * F::load(force, at)).store(force, at);
+        }
     }
 
-    /// Ends the last step, Eqs. (36), (58) and (76). Returns density and internal energy at the time
-    /// of the positions, and whether all is finite.
+    /// Ends the step of the particles from `i` on, at `at` in the columns.
     #[inline(always)]
-    fn end_step<F: Lanes>(&mut self, at: usize, kick: f64, dt: f64) -> (F, F, bool) {
-        let (state, derived, sums) = &mut self.columns;
+    pub fn respond<F: Lanes>(&self, columns: &mut AllSlices<'_>, at: usize, i: usize) -> Allowed {
+        let piece = self.mesh.piece_of(i);
+        if !self.active[piece] {
+            return Allowed { piece, ..Allowed::ANYTHING };
+        }
+        let own = Eight {
+            body: &self.mesh.bodies[self.mesh.pieces[piece].body],
+            mass: F::load(&self.mesh.mass, i),
+            ratio: F::load(&self.mesh.ratio, i),
+            touched: mask(&self.touched[i..]),
+            at,
+        };
+        let (now, volume, sane) = match self.stage {
+            Stage::Whole(kick, dt) => own.end_step(columns, kick, dt, false),
+            Stage::Moved(kick, dt) => own.end_step(columns, kick, dt, true),
+            Stage::State(dt) => (own.state(columns, dt), F::zero(), true),
+        };
+        Allowed { sane, piece, ..own.evaluate(columns, &now, (volume, self.volumes)) }
+    }
+}
+
+/// Eight particles of a body.
+struct Eight<'a, F> {
+    body: &'a Body,
+    mass: F,
+    ratio: F,
+    touched: Mask,
+    at: usize,
+}
+
+/// Density, internal energy and density rate at the time of the positions.
+struct Now<F> {
+    rho: F,
+    u: F,
+    rho_rate: F,
+}
+
+impl<F: Lanes> Eight<'_, F> {
+    /// Ends the last step, Eqs. (36), (58), (74) and (76). Returns what is known at the time of the
+    /// positions, the change of the volume, and whether all is finite.
+    #[inline(always)]
+    fn end_step(
+        &self,
+        (state, derived, sums): &mut AllSlices<'_>,
+        kick: f64,
+        dt: f64,
+        keep_rates: bool,
+    ) -> (Now<F>, F, bool) {
+        let at = self.at;
         let least = F::splat(THINNEST * self.body.rho_0);
         let volume_rate = F::load(sums.volume_rate, at);
         let mut rho_rate = F::load(sums.rho_rate, at) - F::load(derived.dilate, at) * volume_rate;
-        let alone = F::load(self.ratio, at).lt(F::splat(1e-9));
+        let alone = self.ratio.lt(F::splat(1e-9)) & !self.touched;
         if alone != 0 {
-            let free = free_lanes(self.body, (&self.touched[at..], alone), derived, at);
-            rho_rate = F::select(free, free_rate(self.body, derived, at), rho_rate);
+            rho_rate = F::select(self.free(derived, alone), self.free_rate(derived), rho_rate);
         }
         let work = F::load(sums.heat, at) - F::load(derived.grip, at) * volume_rate * kick;
-        let gain = work / F::load(self.mass, at);
+        let gain = work / self.mass;
         let rho = (F::load(state.rho, at) + rho_rate * kick).max(least);
         let u = F::load(state.u, at) + gain;
         let u_rate = if kick > 0.0 { gain * (1.0 / kick) } else { F::zero() };
         rho.store(state.rho, at);
         u.store(state.u, at);
-        rho_rate.store(state.rho_rate, at);
-        u_rate.store(state.u_rate, at);
         let volume = F::load(sums.volume, at) + volume_rate * dt;
-        volume.store(state.volume, at);
         let mut finite = u + rho;
-        for (x, v) in [
-            (&mut *state.dx, &*state.vx),
-            (&mut *state.dy, &*state.vy),
-            (&mut *state.dz, &*state.vz),
+        for (x, v, mean) in [
+            (&mut *state.dx, &mut *state.vx, &mut *sums.fx),
+            (&mut *state.dy, &mut *state.vy, &mut *sums.fy),
+            (&mut *state.dz, &mut *state.vz, &mut *sums.fz),
         ] {
-            let moved = F::load(x, at) + F::load(v, at) * dt;
+            let middle = F::load(mean, at);
+            let after =
+                if kick > 0.0 { middle + (middle - F::load(v, at)) } else { F::load(v, at) };
+            let moved = F::load(x, at) + after * dt;
+            after.store(v, at);
             moved.store(x, at);
+            F::zero().store(mean, at);
             finite += moved;
         }
-        for column in [
-            &mut *sums.fx,
-            &mut *sums.fy,
-            &mut *sums.fz,
-            &mut *sums.volume,
-            &mut *sums.volume_rate,
-            &mut *sums.heat,
-            &mut *sums.rho_rate,
-        ] {
+        for column in [&mut *sums.volume, &mut *sums.volume_rate] {
             F::zero().store(column, at);
         }
+        let left = if keep_rates { [u_rate, rho_rate] } else { [F::zero(); 2] };
+        left[0].store(sums.heat, at);
+        left[1].store(sums.rho_rate, at);
         // Zero times whatever is no number is none either.
         let sane = (finite * 0.0).sum() == 0.0;
-        ((rho + rho_rate * (0.5 * dt)).max(least), u + u_rate * (0.5 * dt), sane)
+        let rho = (rho + rho_rate * (0.5 * dt)).max(least);
+        (Now { rho, u: u + u_rate * (0.5 * dt), rho_rate }, volume, sane)
+    }
+
+    /// The same at a density known, with the rates that [`Stage::Moved`] has left.
+    #[inline(always)]
+    fn state(&self, (state, derived, sums): &mut AllSlices<'_>, dt: f64) -> Now<F> {
+        let at = self.at;
+        let now = Now {
+            rho: F::load(derived.rho, at),
+            u: F::load(state.u, at) + F::load(sums.heat, at) * (0.5 * dt),
+            rho_rate: F::load(sums.rho_rate, at),
+        };
+        F::zero().store(sums.heat, at);
+        F::zero().store(sums.rho_rate, at);
+        now
     }
 
     /// Pressure and what follows from it, Eq. (22), and what that allows.
     #[inline(always)]
-    fn evaluate<F: Lanes>(&mut self, at: usize, rho: F, u: F) -> Allowed {
-        let (state, derived, _) = &mut self.columns;
+    fn evaluate(
+        &self,
+        (_, derived, _): &mut AllSlices<'_>,
+        now: &Now<F>,
+        (volume, volumes): (F, bool),
+    ) -> Allowed {
         let (zero, forever) = (F::zero(), F::splat(f64::INFINITY));
-        let (mass, ratio) = (F::load(self.mass, at), F::load(self.ratio, at));
-        let response = self.body.eos.respond(rho, u);
-        let reference = mass * (1.0 / self.body.rho_0);
-        let whole = (reference + ratio * F::load(state.volume, at)).max(reference * SMALLEST);
-        let dilate = (rho / whole).keep(ratio.gt(zero));
-        let per_density = response.pressure * mass / (rho * rho);
+        let (at, rho) = (self.at, now.rho);
+        let response = self.body.eos.respond(rho, now.u);
+        let reference = self.mass * (1.0 / self.body.rho_0);
+        let whole = (reference + self.ratio * volume).max(reference * SMALLEST);
+        let dilate = (rho / whole).keep(self.ratio.gt(zero));
+        let per_density = response.pressure * self.mass / (rho * rho);
         let sound = response.sound_squared.sqrt();
         rho.store(derived.rho, at);
         response.pressure.store(derived.pressure, at);
@@ -219,22 +274,35 @@ impl RespondPiece<'_> {
         sound.store(derived.sound, at);
 
         // Elements ask for what their own particles need.
-        let loose = if self.volumes {
-            let held = ratio.gt(F::splat(0.999)) & ratio.lt(F::splat(1.001));
-            !held | mask(&self.touched[at..])
+        let loose = if volumes {
+            let held = self.ratio.gt(F::splat(0.999)) & self.ratio.lt(F::splat(1.001));
+            !held | self.touched
         } else {
             Mask::MAX
         };
         let spacing = (F::splat(self.body.rho_0) / rho).min(F::splat(1.0));
         let crossing = F::select(loose, spacing / sound.max(F::splat(1e-300)), forever);
-        let rate = F::load(state.rho_rate, at).abs();
-        let change = rho / rate.max(F::splat(1e-300));
+        let change = rho / now.rho_rate.abs().max(F::splat(1e-300));
         let change = F::select(response.pressure.gt(zero), change, forever);
         Allowed {
             sound: CROSSING * self.body.edge() * crossing.least(),
             density: DENSEST_STEP * change.least(),
             ..Allowed::ANYTHING
         }
+    }
+
+    /// Those of lanes without elements, contacts and wall that are under pressure.
+    #[inline(always)]
+    fn free(&self, derived: &DerivedSlices<'_>, alone: Mask) -> Mask {
+        let dense = F::load(derived.rho, self.at).gt(F::splat(RELAXED * self.body.rho_0));
+        alone & dense & F::load(derived.pressure, self.at).gt(F::zero())
+    }
+
+    /// Rate of a fragment that nothing holds together.
+    #[inline(always)]
+    fn free_rate(&self, derived: &DerivedSlices<'_>) -> F {
+        let crossing = F::load(derived.sound, self.at) * (1.0 / self.body.length);
+        -(crossing * F::load(derived.rho, self.at) * RELAXATION)
     }
 }
 
@@ -246,95 +314,4 @@ fn mask(lanes: &[bool]) -> Mask {
         bits |= u8::from(lane) << k;
     }
     bits
-}
-
-/// Lanes without elements, contacts and wall that are under pressure.
-#[inline(always)]
-fn free_lanes(
-    body: &Body,
-    (touched, alone): (&[bool], u8),
-    derived: &DerivedSlices<'_>,
-    at: usize,
-) -> Mask {
-    let mut bits = 0;
-    for (k, &touched) in touched[..LANES].iter().enumerate() {
-        let dense = derived.rho[at + k] > RELAXED * body.rho_0;
-        let pressed = derived.pressure[at + k] > 0.0;
-        let free = alone >> k & 1 == 1 && !touched && pressed && dense;
-        bits |= u8::from(free) << k;
-    }
-    bits
-}
-
-/// Rate of a fragment that nothing holds together.
-#[inline(always)]
-fn free_rate<F: Lanes>(body: &Body, derived: &DerivedSlices<'_>, at: usize) -> F {
-    let crossing = F::load(derived.sound, at) * (1.0 / body.length);
-    -(crossing * F::load(derived.rho, at) * RELAXATION)
-}
-
-/// New velocities, Eq. (74), and the mean velocities of the step.
-pub struct Kick<'a> {
-    /// Mesh.
-    pub mesh: &'a Mesh,
-    /// Pieces to be worked on.
-    pub active: &'a [bool],
-    /// Length of the kick.
-    pub kick: f64,
-    /// Instructions.
-    pub instructions: Instructions,
-}
-
-impl<'c> Work<Columns<'c>> for Kick<'_> {
-    type Output = ();
-
-    fn start(&self, piece: usize) -> usize {
-        self.mesh.pieces[piece].range.start
-    }
-
-    fn run(&self, piece: usize, (state, derived, sums): Columns<'c>) {
-        if self.active[piece] {
-            let range = self.mesh.pieces[piece].range.clone();
-            let len = range.len();
-            let mass = &self.mesh.mass[range];
-            self.instructions.run(KickPiece {
-                mass,
-                len,
-                kick: self.kick,
-                columns: (state, derived, sums),
-            });
-        }
-    }
-
-    fn join(&self, (): (), (): ()) {}
-}
-
-struct KickPiece<'a> {
-    mass: &'a [f64],
-    len: usize,
-    kick: f64,
-    columns: Columns<'a>,
-}
-
-impl Kernel for KickPiece<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run<F: Lanes>(self) {
-        let (state, derived, sums) = self.columns;
-        let half = 0.5 * self.kick;
-        for at in (0..self.len).step_by(LANES) {
-            let per_mass = F::splat(half) / F::load(self.mass, at);
-            for (v, mean, force) in [
-                (&mut *state.vx, &mut *derived.mx, &*sums.fx),
-                (&mut *state.vy, &mut *derived.my, &*sums.fy),
-                (&mut *state.vz, &mut *derived.mz, &*sums.fz),
-            ] {
-                let gain = per_mass * F::load(force, at);
-                let middle = F::load(v, at) + gain;
-                middle.store(mean, at);
-                (middle + gain).store(v, at);
-            }
-        }
-    }
 }

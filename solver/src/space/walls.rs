@@ -1,6 +1,6 @@
 //! Rigid, frictionless walls: they give back whatever would cross them, and their impulse is booked.
 
-use super::columns::{Derived, State};
+use super::columns::{State, Sums};
 use super::contacts::Contacts;
 use super::mesh::Mesh;
 use super::scene::{Hold, Scene, Side};
@@ -47,27 +47,26 @@ impl Wall {
         scene.walls.iter().map(one).collect()
     }
 
-    /// Keeps particles on their side over a step of length `dt`; they stop at the wall at most.
-    /// Velocities are those after the kick. `seen` is told of every particle whose velocity
-    /// changes, and whether it was stopped.
+    /// Keeps particles on their side over a kick and a drift of these lengths; they stop at the wall
+    /// at most. `seen` is told of every particle that is pushed, and whether it was stopped.
     pub fn keep(
         &self,
         (mesh, contacts): (&Mesh, &Contacts),
-        (state, derived): (&mut State, &mut Derived),
-        dt: f64,
+        (state, sums): (&State, &mut Sums),
+        [kick, dt]: [f64; 2],
         given: &mut Given,
         mut seen: impl FnMut(usize, bool),
     ) {
         let axis = self.axis;
         for (i, body, x) in contacts.along(axis) {
-            let v = velocity(state)[axis];
             let whole = mesh.bodies[body].velocity[axis];
+            let v = velocity(state)[axis][i] + kick / mesh.mass[i] * force(sums, axis)[i];
             let gap = self.side * (x - self.position);
-            let speed = self.side * (v[i] + whole);
+            let speed = self.side * (v + whole);
             if gap + dt * speed < 0.0 {
                 // To the wall and no further; what is beyond it already stops.
                 let wanted = self.side * (-gap / dt).min(0.0) - whole;
-                self.set((i, body), wanted, mesh, (state, derived), given);
+                self.push((i, body), wanted, mesh, (state, sums), (kick, given));
                 seen(i, true);
             }
         }
@@ -75,47 +74,46 @@ impl Wall {
             let i = i as usize;
             let body = mesh.place(i).0;
             let wanted = -mesh.bodies[body].velocity[axis];
-            if velocity(state)[axis][i] != wanted {
+            if velocity(state)[axis][i] != wanted || force(sums, axis)[i] != 0.0 {
                 seen(i, false);
             }
-            self.set((i, body), wanted, mesh, (state, derived), given);
+            self.push((i, body), wanted, mesh, (state, sums), (kick, given));
         }
     }
 
-    /// Sets the velocity of a particle normal to the wall and books what that takes.
-    fn set(
+    /// Adds the force by which a particle has the wanted velocity normal to the wall after the kick,
+    /// and books it.
+    fn push(
         &self,
         (i, body): (usize, usize),
         wanted: f64,
         mesh: &Mesh,
-        (state, derived): (&mut State, &mut Derived),
-        given: &mut Given,
+        (state, sums): (&State, &mut Sums),
+        (kick, given): (f64, &mut Given),
     ) {
         let axis = self.axis;
         let place = mesh.bodies[body].lattice.position(mesh.place(i).1);
         let own = [state.dx[i], state.dy[i], state.dz[i]];
         let way = mesh.bodies[body].way;
         let x: [f64; 3] = std::array::from_fn(|d| place[d] + (way[d] + own[d]));
-        let v = match axis {
-            0 => &mut state.vx[i],
-            1 => &mut state.vy[i],
-            _ => &mut state.vz[i],
-        };
-        let gain = wanted - *v;
-        *v = wanted;
-        let mean = match axis {
-            0 => &mut derived.mx[i],
-            1 => &mut derived.my[i],
-            _ => &mut derived.mz[i],
-        };
-        *mean += 0.5 * gain;
-        let mean = *mean;
-        let impulse = mesh.mass[i] * gain;
+        let v = velocity(state)[axis][i];
+        let total = mesh.mass[i] * (wanted - v) / kick;
+        let force = force(sums, axis);
+        let impulse = (total - force[i]) * kick;
+        force[i] = total;
         given.impulse[axis] += impulse;
-        given.work += impulse * (mean + mesh.bodies[body].velocity[axis]);
+        given.work += impulse * (0.5 * (v + wanted) + mesh.bodies[body].velocity[axis]);
         let (next, last) = ((axis + 1) % 3, (axis + 2) % 3);
         given.moment[next] += x[last] * impulse;
         given.moment[last] -= x[next] * impulse;
+    }
+}
+
+fn force(sums: &mut Sums, axis: usize) -> &mut [f64] {
+    match axis {
+        0 => &mut sums.fx,
+        1 => &mut sums.fy,
+        _ => &mut sums.fz,
     }
 }
 

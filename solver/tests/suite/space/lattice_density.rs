@@ -21,7 +21,7 @@ fn along(path: impl Fn(f64) -> F) -> f64 {
         ..scene(vec![copper()], vec![block("copper", [8; 3], 0.1)])
     };
     let (mesh, _) = Mesh::new(&scene);
-    let mut contacts = Contacts::new(&mesh, true, None);
+    let mut contacts = Contacts::new(&mesh, false, None);
     let (mut state, mut derived) = (State::zeros(mesh.len), Derived::zeros(mesh.len));
     let mut sums = Sums::zeros(mesh.len);
     let mut rho = vec![8.93; mesh.len];
@@ -30,23 +30,23 @@ fn along(path: impl Fn(f64) -> F) -> f64 {
         mesh.real().map(|i| (i, mesh.bodies[0].lattice.position(mesh.place(i).1))).collect();
     let dt = 1.0 / STEPS as f64;
     let mut rate = vec![0.0; mesh.len];
+    let mut mean = vec![[0.0; 3]; mesh.len];
     for step in 0..STEPS {
         let times = [0.0, 0.5, 1.0].map(|part| (step as f64 + part) * dt);
         let [from, middle, to] = times.map(&path);
         for &(i, x) in &start {
             let at = |f: &F, d: usize| (0..3).map(|k| f[d][k] * x[k]).sum::<f64>();
             let [dx, dy, dz] = [0, 1, 2].map(|d| at(&middle, d) - x[d]);
-            let [vx, vy, vz] = [0, 1, 2].map(|d| (at(&to, d) - at(&from, d)) / dt);
+            mean[i] = [0, 1, 2].map(|d| (at(&to, d) - at(&from, d)) / dt);
             (state.dx[i], state.dy[i], state.dz[i]) = (dx, dy, dz);
-            (derived.mx[i], derived.my[i], derived.mz[i]) = (vx, vy, vz);
             derived.rho[i] = rho[i] + 0.5 * dt * rate[i];
             derived.sound[i] = 0.394;
         }
-        contacts.refresh(&mesh, &state, &method, true);
+        contacts.refresh(&mesh, &state, &method);
         sums.rho_rate.fill(0.0);
         let marks = (&mut sums, &mut touched[..], &mut active[..]);
         contacts.push(&mesh, (&state, &derived), (&method, dt), marks);
-        contacts.work(&mesh, &derived, dt, &mut sums);
+        contacts.work(&mesh, |i| mean[i], dt, (&mut sums.rho_rate, &mut sums.heat));
         for &(i, _) in &start {
             rate[i] = sums.rho_rate[i];
             rho[i] += dt * rate[i];
