@@ -6,6 +6,7 @@
 //! translation of the body, so that a body at rest in its own frame is exactly free of force.
 
 use super::columns::{AllSlices, SumsSlices};
+use super::hourglass::Hourglass;
 use super::lanes::{F8, LANES, Lanes, Mask, each};
 use super::mesh::{Body, Group};
 use super::method::Method;
@@ -443,7 +444,12 @@ impl Group {
 
         let (volume, face) = extent(&pyramids, body);
         self.fail(body, &motion, (&opening, volume, face), mean);
-        let mut freed = self.damage(body, &opening, laws.dt);
+        let glass = Hourglass::of(&laws.method, body);
+        let held = match &glass {
+            Some(glass) => glass.energy(&u),
+            None => F::zero(),
+        };
+        let mut freed = self.damage(body, (&opening, held), laws.dt);
         let intact = F::splat(1.0) - F::of(self.damage);
         let mut rate_squared = F::zero();
         if body.solid.mu > 0.0 {
@@ -453,6 +459,10 @@ impl Group {
             // Twice the rate at which longitudinal waves cross the cell, stretched.
             let crossing = 2.0 * body.solid.sound / body.solid.edge;
             rate_squared = motion.stretch_squared() * (crossing * crossing);
+        }
+        if let Some(glass) = &glass {
+            glass.push(&u, intact.keep(live), &mut loads.force);
+            rate_squared += F::splat(glass.rate_squared(body));
         }
         let freed = freed.keep(live);
         for slot in 0..8 {
@@ -577,7 +587,7 @@ impl Group {
     /// Damage of failed lanes, Eq. (47), and the energy that it sets free. A dying element loses all
     /// of its strength at once, so that no stored energy is left in it.
     #[inline(always)]
-    fn damage<F: Lanes>(&mut self, body: &Body, opening: &[F; 6], dt: f64) -> F {
+    fn damage<F: Lanes>(&mut self, body: &Body, (opening, held): (&[F; 6], F), dt: f64) -> F {
         if self.failed & self.live == 0 {
             return F::zero();
         }
@@ -585,7 +595,7 @@ impl Group {
         let before = F::of(self.damage);
         let step = F::select(self.dying, one, F::splat(body.solid.damage_step(dt)));
         let after = F::select(self.failed & self.live, (before + step).min(one), before);
-        let stored = self.shear_energy::<F>(body) + tension_energy(body, opening);
+        let stored = self.shear_energy::<F>(body) + tension_energy(body, opening) + held;
         let released = stored * (after - before);
         let left = (one - after) / (one - before).max(F::splat(1e-300));
         for stress in &mut self.stress {
@@ -744,6 +754,9 @@ impl Group {
             power += tension(opening, intact, body) * rate;
             rates[k] = rate;
         }
+        if let Some(glass) = Hourglass::of(&laws.method, body) {
+            power += (glass.power(&u, &v) * intact).keep(self.live);
+        }
         if body.solid.mu > 0.0 {
             let stress = each!(k => F::of(self.stress[k]));
             let piola = Kinematics::new(&u, body).piola(&stress, body);
@@ -783,15 +796,15 @@ impl Group {
         power.sum()
     }
 
-    /// Energy stored by lane: in shear (24), from the stress of the last step, and in tension (25),
-    /// at the positions before the last drift, which was of length `dt`.
+    /// Energy stored by lane: in shear (24), from the stress of the last step, in tension (25) and in
+    /// hourglass modes, at the positions before the last drift, which was of length `dt`.
     #[must_use]
     pub fn stored(
         &self,
         body: &Body,
         (displacement, velocity): ([&[f64]; 3], [&[f64]; 3]),
-        dt: f64,
-    ) -> (F8, F8) {
+        (method, dt): (&Method, f64),
+    ) -> [F8; 3] {
         let mut u: [V3<F8>; 9] = self.gather_vector(displacement);
         let v: [V3<F8>; 9] = self.gather_vector(velocity);
         for (u, v) in u.iter_mut().zip(&v) {
@@ -802,7 +815,8 @@ impl Group {
             each!(k => Pyramid::new(&y, FACES[k], body.pyramids[k]).growth * body.per_pyramid[k]);
         let intact = F8::splat(1.0) - self.damage;
         let (shear, tension) = (self.shear_energy::<F8>(body), tension_energy(body, &opening));
-        ((shear * intact).keep(self.live), (tension * intact).keep(self.live))
+        let glass = Hourglass::of(method, body).map_or(F8::ZERO, |glass| glass.energy(&u));
+        [shear, tension, glass].map(|energy| (energy * intact).keep(self.live))
     }
 }
 

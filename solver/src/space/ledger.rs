@@ -22,6 +22,9 @@ pub struct Holdings {
     pub shear: f64,
     /// Energy stored in tension, Eq. (25).
     pub tension: f64,
+    /// Energy stored in hourglass modes.
+    #[serde(default)]
+    pub hourglass: f64,
     /// Energy of the springs between surfaces, half to each body.
     #[serde(default)]
     pub spring: f64,
@@ -44,16 +47,23 @@ impl Holdings {
             internal: self.internal + other.internal,
             shear: self.shear + other.shear,
             tension: self.tension + other.tension,
+            hourglass: self.hourglass + other.hourglass,
             spring: self.spring + other.spring,
             momentum_scale: self.momentum_scale + other.momentum_scale,
             angular_scale: self.angular_scale + other.angular_scale,
         }
     }
 
+    /// Energy that elements and springs give back.
+    #[must_use]
+    pub fn stored(&self) -> f64 {
+        self.shear + self.tension + self.hourglass + self.spring
+    }
+
     /// All energy.
     #[must_use]
     pub fn energy(&self) -> f64 {
-        self.kinetic + self.internal + self.shear + self.tension + self.spring
+        self.kinetic + self.internal + self.stored()
     }
 }
 
@@ -87,9 +97,8 @@ impl Balance {
     /// their forces over steps of finite length.
     #[must_use]
     pub fn residual(&self) -> f64 {
-        let stored = |h: &Holdings| h.shear + h.tension + h.spring;
         let given = self.element_work - self.element_heat + (self.spring_work - self.spring_heat);
-        given - (stored(&self.now) - stored(&self.initial))
+        given - (self.now.stored() - self.initial.stored())
     }
 
     /// The residual over the initial kinetic energy, or the internal where nothing moved.
@@ -148,9 +157,11 @@ impl Simulation {
         let velocity: [&[f64]; 3] = [&state.vx, &state.vy, &state.vz];
         for group in &self.groups {
             let body = &self.mesh.bodies[group.body as usize];
-            let (shear, tension) = group.stored(body, (displacement, velocity), self.dt);
+            let [shear, tension, hourglass] =
+                group.stored(body, (displacement, velocity), (&self.method, self.dt));
             all[group.body as usize].shear += shear.sum();
             all[group.body as usize].tension += tension.sum();
+            all[group.body as usize].hourglass += hourglass.sum();
         }
         for (holdings, spring) in
             all.iter_mut().zip(self.surfaces.stored(&self.mesh, &self.contacts))

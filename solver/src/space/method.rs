@@ -55,6 +55,10 @@ pub struct Method {
     /// Part of the opposite corners in the pressure of a pyramid (decision 0013): 1 moves nodes and
     /// centroids alike in a smooth field, 0 is the plain mean.
     pub balance: f64,
+    /// Stiffness of the hourglass modes of elements, over that of a cell; zero for none.
+    pub hourglass: f64,
+    /// Stiffness of the motion of centroids against corners, over that of a cell; zero for none.
+    pub centring: f64,
     /// Tolerance of the contact condition (35): contact while
     /// `zeta (rho/rho_o)^(1/3) < 1 + tolerance`.
     pub contact_tolerance: f64,
@@ -98,6 +102,8 @@ impl Preset {
             limiter: 4.0,
             heat_coeff: 1.0,
             balance: 1.0,
+            hourglass: 0.0,
+            centring: 0.0,
             contact_tolerance: 0.06,
             contact_reach: 1.12,
             kernel_support: 1.7,

@@ -5,6 +5,7 @@ pub mod contacts;
 pub mod dispatch;
 pub mod element;
 pub mod eos;
+pub mod hourglass;
 pub mod kernel;
 pub mod lanes;
 pub mod lattice;

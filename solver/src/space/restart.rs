@@ -184,6 +184,8 @@ impl Simulation {
             add(name, Values::F64(places));
         }
         add("list.stale", Values::U8(vec![u8::from(contacts.stale)]));
+        let stand = self.surfaces.memory(&self.contacts, self.mesh.len);
+        add("surface.stand", Values::F64(stand));
         add("run.clock", Values::F64(self.clock().to_vec()));
         add("run.ledger", Values::F64(self.books().to_vec()));
         add("run.counts", Values::U64(self.counts().to_vec()));
@@ -293,6 +295,7 @@ impl Simulation {
         self.contacts.recall(&self.mesh, &memory, &self.method);
         // The list is that of its time; the members stand where they are now.
         self.contacts.refresh(&self.mesh, &self.state, &self.method);
+        self.surfaces.recall(&self.contacts, from.f64s());
         self.set_clock(from.f64s());
         self.set_books(from.f64s());
         self.set_counts(from.u64s());
@@ -316,7 +319,7 @@ impl Simulation {
     }
 
     /// What the balance has booked, and what the scene held at the start.
-    fn books(&self) -> [f64; 25] {
+    fn books(&self) -> [f64; 26] {
         let (h, walls) = (&self.initial, &self.walls_gave);
         let [px, py, pz] = h.momentum;
         let [lx, ly, lz] = h.angular;
@@ -345,6 +348,7 @@ impl Simulation {
             h.tension,
             h.momentum_scale,
             h.angular_scale,
+            h.hourglass,
             h.spring,
             self.spring_work,
             self.spring_heat,
@@ -352,7 +356,7 @@ impl Simulation {
     }
 
     fn set_books(&mut self, books: &[f64]) {
-        let Ok(b) = <[f64; 25]>::try_from(books) else { return };
+        let Ok(b) = <[f64; 26]>::try_from(books) else { return };
         (self.element_work, self.element_heat) = (b[0], b[1]);
         let walls = &mut self.walls_gave;
         walls.work = b[2];
@@ -363,8 +367,8 @@ impl Simulation {
         h.momentum = [b[10], b[11], b[12]];
         h.angular = [b[13], b[14], b[15]];
         (h.kinetic, h.internal, h.shear, h.tension) = (b[16], b[17], b[18], b[19]);
-        (h.momentum_scale, h.angular_scale, h.spring) = (b[20], b[21], b[22]);
-        (self.spring_work, self.spring_heat) = (b[23], b[24]);
+        (h.momentum_scale, h.angular_scale, h.hourglass) = (b[20], b[21], b[22]);
+        (h.spring, self.spring_work, self.spring_heat) = (b[23], b[24], b[25]);
     }
 
     /// Counters, and the piece that decides the next step.

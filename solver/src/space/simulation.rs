@@ -134,6 +134,13 @@ impl Simulation {
         };
         simulation.respond(simulation.end());
         simulation.touch();
+        if let Some((body, [distance, least])) =
+            simulation.surfaces.too_close(&simulation.mesh, &simulation.contacts)
+        {
+            let key = format!("bodies.{body}.centre");
+            let wanted = format!("bodies apart by at least {least:.3e}: an eighth of a cell");
+            return Err(SceneError::new(key, format!("{distance:.3e} from another body"), &wanted));
+        }
         simulation.active =
             (0..simulation.mesh.pieces.len()).map(|p| simulation.stirs(p)).collect();
         simulation.wake();

@@ -20,8 +20,7 @@ const STAND: f64 = 0.5;
 /// is stretched to 1.5 times its edge.
 pub(super) const REACH: f64 = 1.4;
 
-/// Smallest part of it. Nothing keeps a particle that a surface appeared closer to: it feels it when it
-/// has left it so far.
+/// Smallest part of it: a particle that a surface appears closer to feels it when it has left it so far.
 const CLOSE: f64 = 0.25;
 
 /// Stiffness of the spring over that of the half cells behind both surfaces in series: two flat surfaces
@@ -133,11 +132,14 @@ impl Spring {
 pub struct Surfaces {
     /// Whether there can be any.
     some: bool,
-    /// Distance at which each member feels a surface.
-    pub(super) stand: Vec<f64>,
+    /// Distance at which each member feels a surface: that at which it was first seen, at most the
+    /// full one, and growing with the distance.
+    stand: Vec<f64>,
     /// Nearest node of another body's surface and the square of its distance, by member.
     nearest: Vec<(f64, u32)>,
     springs: Vec<Spring>,
+    /// Members on springs that outlive dying elements.
+    pressed: Vec<bool>,
 }
 
 impl Surfaces {
@@ -145,6 +147,29 @@ impl Surfaces {
     #[must_use]
     pub fn new(mesh: &Mesh, volumes: bool) -> Self {
         Self { some: volumes && mesh.bodies.len() > 1, ..Self::default() }
+    }
+
+    /// The first member that stands too close to a surface to feel it: distance, and what it must be.
+    pub fn too_close(&mut self, mesh: &Mesh, contacts: &Contacts) -> Option<(usize, [f64; 2])> {
+        self.look(mesh, contacts);
+        (0..self.stand.len()).find_map(|member| {
+            let one = contacts.member(member);
+            let least = CLOSE * STAND * mesh.bodies[one.body].edge();
+            let near = self.nearest[member].1 != NONE && self.stand[member] < 0.99 * least;
+            near.then_some((one.body, [self.stand[member], least]))
+        })
+    }
+
+    /// What each particle's member remembers, for a restart.
+    pub(super) fn memory(&self, contacts: &Contacts, particles: usize) -> Vec<f64> {
+        let at = |i: usize| contacts.find(i).and_then(|member| self.stand.get(member));
+        (0..particles).map(|i| at(i).copied().unwrap_or(0.0)).collect()
+    }
+
+    /// Takes it back.
+    pub(super) fn recall(&mut self, contacts: &Contacts, memory: &[f64]) {
+        self.stand.clear();
+        self.stand.extend((0..contacts.members()).map(|at| memory[contacts.member(at).particle]));
     }
 
     /// Forces on particles and surfaces, and the marks of touched particles. Returns the inverse of
@@ -231,13 +256,12 @@ impl Surfaces {
         if !self.some {
             return 0.0;
         }
-        let before = std::mem::take(&mut self.springs);
-        let mut sound = vec![false; contacts.members()];
+        self.pressed.clear();
+        self.pressed.resize(contacts.members(), false);
         let mut heat = 0.0;
-        for mut spring in before {
-            let face = spring.face;
-            if mesh.held(face.cell) {
-                sound[spring.member] = spring.force > 0.0;
+        for spring in &mut self.springs {
+            if mesh.held(spring.face.cell) {
+                self.pressed[spring.member] = spring.force > 0.0;
             } else if spring.see(contacts) {
                 let energy = spring.energy();
                 for (i, share) in spring.shares() {
@@ -247,7 +271,7 @@ impl Surfaces {
             }
         }
         self.look(mesh, contacts);
-        for spring in self.springs.iter().filter(|spring| !sound[spring.member]) {
+        for spring in self.springs.iter().filter(|spring| !self.pressed[spring.member]) {
             self.stand[spring.member] = spring.distance.min(spring.stand);
         }
         heat
@@ -259,7 +283,7 @@ impl Surfaces {
         if !self.some {
             return;
         }
-        self.stand.resize(contacts.members(), f64::INFINITY);
+        self.stand.resize(contacts.members(), 0.0);
         self.nearest.clear();
         self.nearest.resize(contacts.members(), (f64::INFINITY, NONE));
         for &[a, b] in contacts.list() {
@@ -278,7 +302,7 @@ impl Surfaces {
         for member in 0..self.nearest.len() {
             let node = self.nearest[member].1;
             if node == NONE {
-                self.stand[member] = f64::INFINITY;
+                self.stand[member] = 0.0;
                 continue;
             }
             let (one, node) = (contacts.member(member), contacts.member(node as usize));

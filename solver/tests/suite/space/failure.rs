@@ -106,7 +106,7 @@ fn plastic_work_is_heat() {
     let mut material = strong(copper(), 0.46, Some(flow));
     material.failure.compression = 0.1;
     let fast = Body { velocity: [0.02, 0.0, 0.0], ..block("copper", [8, 4, 4], 0.1) };
-    let slow = Body { centre: [0.81, 0.0, 0.0], ..block("copper", [8, 4, 4], 0.1) };
+    let slow = Body { centre: [0.85, 0.0, 0.0], ..block("copper", [8, 4, 4], 0.1) };
     let mut simulation = start(&scene(vec![material], vec![fast, slow]));
     march(&mut simulation, 120);
     let b = simulation.balance();

@@ -168,12 +168,47 @@ struct Contact {
     drag: f64,
 }
 
+/// A particle on the surface of another body.
+struct Spring {
+    particle: usize,
+    element: usize,
+    /// Corners of the face and their shares.
+    face: [(usize, f64); 4],
+    way: V,
+    z: f64,
+    stand: f64,
+    stiffness: f64,
+    force: f64,
+    drag: f64,
+}
+
+impl Spring {
+    fn energy(&self) -> f64 {
+        let deep = self.z.max(0.2);
+        let below = 0.5 * (1.0 / (deep * deep) - 1.0) * (deep - self.z);
+        if self.z < 1.0 {
+            self.stiffness * (0.5 * (1.0 - deep).powi(2) / deep + below)
+        } else {
+            0.0
+        }
+    }
+
+    fn parts(&self) -> Vec<(usize, f64)> {
+        let mut parts = vec![(self.particle, 1.0)];
+        parts.extend(self.face.map(|(i, share)| (i, -share)));
+        parts
+    }
+}
+
 pub struct Plain {
     method: Method,
     bodies: Vec<Solid>,
     pub particles: Vec<Particle>,
     pub elements: Vec<Element>,
     contacts: Vec<Contact>,
+    springs: Vec<Spring>,
+    /// Distance at which each particle feels surfaces.
+    stands: Vec<f64>,
     pub dt: f64,
     allowed: [f64; 2],
     rate: f64,
@@ -255,6 +290,8 @@ impl Plain {
             particles: Vec::new(),
             elements: Vec::new(),
             contacts: Vec::new(),
+            springs: Vec::new(),
+            stands: Vec::new(),
             dt: 0.0,
             allowed: [f64::INFINITY; 2],
             rate: 0.0,
@@ -394,6 +431,8 @@ impl Plain {
             }
         }
         self.touch();
+        self.find_springs();
+        self.spring();
         let before = self.dt;
         self.dt = self.elect();
         let kick = 0.5 * (before + self.dt);
@@ -403,6 +442,7 @@ impl Plain {
             p.v = add(p.v, gain);
         }
         self.work(kick);
+        self.spring_work(kick);
         self.respond(kick, self.dt);
         self.bury();
     }
@@ -619,7 +659,8 @@ impl Plain {
     fn strangers(&self, i: usize, j: usize) -> bool {
         let (a, b) = (&self.particles[i], &self.particles[j]);
         if a.body != b.body {
-            return true;
+            // Live surfaces keep others off.
+            return a.live == 0 && b.live == 0;
         }
         let span = (0..3).map(|d| (a.place[d] - b.place[d]).abs()).max().unwrap_or(0);
         let broken = a.live < a.round || b.live < b.round;
@@ -675,6 +716,146 @@ impl Plain {
         self.contacts.push(Contact { pair, r, row, push, drag });
     }
 
+    /// Corners of the faces that live elements of a body do not share, and their elements.
+    fn surface(&self, body: usize) -> Vec<(usize, [usize; 4])> {
+        let live = |e: &&Element| e.live && e.body == body;
+        let mut all = Vec::new();
+        for (k, e) in self.elements.iter().enumerate().filter(|(_, e)| live(e)) {
+            for face in faces() {
+                let face = face.map(|slot| e.corners[slot]);
+                let shared = self.elements.iter().filter(live).any(|other| {
+                    other.centre != e.centre && face.iter().all(|i| other.corners.contains(i))
+                });
+                if !shared {
+                    all.push((k, face));
+                }
+            }
+        }
+        all
+    }
+
+    /// Nearest point of a face, as four triangles about its middle: shares of the corners.
+    fn nearest(&self, x: V, face: [usize; 4]) -> ([f64; 4], V) {
+        let corners = face.map(|i| self.position(i));
+        let middle = times(corners.into_iter().fold([0.0; 3], add), 0.25);
+        let mut best = ([0.0; 4], [f64::INFINITY; 3]);
+        for k in 0..4 {
+            let points = [corners[k], corners[(k + 1) % 4], middle];
+            // The foot of the perpendicular, or the nearest point of an edge.
+            let normal = cross(sub(points[1], points[0]), sub(points[2], points[0]));
+            let part = |a: V, b: V| dot(normal, cross(sub(a, x), sub(b, x))) / dot(normal, normal);
+            let foot = [0, 1, 2].map(|c| part(points[(c + 1) % 3], points[(c + 2) % 3]));
+            let mut candidates = vec![foot];
+            for c in 0..3 {
+                let (a, b) = (points[c], points[(c + 1) % 3]);
+                let t = dot(sub(x, a), sub(b, a)) / dot(sub(b, a), sub(b, a));
+                let mut edge = [0.0; 3];
+                edge[c] = 1.0 - t.clamp(0.0, 1.0);
+                edge[(c + 1) % 3] = t.clamp(0.0, 1.0);
+                candidates.push(edge);
+            }
+            for share in candidates.into_iter().filter(|s| s.iter().all(|&s| s >= 0.0)) {
+                let foot = (0..3).fold([0.0; 3], |sum, c| add(sum, times(points[c], share[c])));
+                let way = sub(x, foot);
+                if dot(way, way) < dot(best.1, best.1) {
+                    let mut shares = [0.25 * share[2]; 4];
+                    shares[k] += share[0];
+                    shares[(k + 1) % 4] += share[1];
+                    best = (shares, way);
+                }
+            }
+        }
+        best
+    }
+
+    fn spring_on(&self, particle: usize, element: usize, face: [usize; 4]) -> Spring {
+        let p = &self.particles[particle];
+        let (shares, r) = self.nearest(self.position(particle), face);
+        let (own, other) = (&self.bodies[p.body], &self.bodies[self.elements[element].body]);
+        let modulus = |solid: &Solid| solid.material.density * solid.fast * solid.fast;
+        let series = 1.0 / (1.0 / modulus(own) + 1.0 / modulus(other));
+        let area = 4.0 * p.mass / own.material.density / own.edge;
+        Spring {
+            particle,
+            element,
+            face: std::array::from_fn(|k| (face[k], shares[k])),
+            way: times(r, 1.0 / norm(r)),
+            z: norm(r),
+            stand: 0.0,
+            stiffness: 0.5 * area * own.edge * series,
+            force: 0.0,
+            drag: 0.0,
+        }
+    }
+
+    fn find_springs(&mut self) {
+        self.stands.resize(self.particles.len(), 0.0);
+        self.springs.clear();
+        for body in 0..self.bodies.len() {
+            let surface = self.surface(body);
+            for i in 0..self.particles.len() {
+                if self.particles[i].body == body || !self.particles[i].exposed {
+                    continue;
+                }
+                let all = surface.iter().map(|&(e, face)| self.spring_on(i, e, face));
+                let Some(mut spring) = all.min_by(|a, b| a.z.total_cmp(&b.z)) else { continue };
+                let edges = self.bodies[body].edge + self.bodies[self.particles[i].body].edge;
+                let full = 0.25 * edges;
+                let before = self.stands[i];
+                let grown = if before < 0.25 * full { spring.z } else { before.max(spring.z) };
+                self.stands[i] = grown.min(full);
+                if self.stands[i] >= 0.25 * full {
+                    spring.stand = self.stands[i];
+                    spring.z /= spring.stand;
+                    self.springs.push(spring);
+                }
+            }
+        }
+    }
+
+    fn spring(&mut self) {
+        for k in 0..self.springs.len() {
+            let s = &self.springs[k];
+            let p = |i: usize| &self.particles[i];
+            let parts = s.parts();
+            let velocity = parts.iter().map(|&(i, share)| times(self.velocity(i), share));
+            let approach = -dot(s.way, velocity.fold([0.0; 3], add));
+            self.rate = self.rate.max(approach / (0.4 * s.stand * s.z.max(0.2)));
+            if s.z >= 1.0 {
+                continue;
+            }
+            let deep = s.z.max(0.2);
+            let force = s.stiffness * 0.5 * (1.0 / (deep * deep) - 1.0) / s.stand;
+            let inertia: f64 = parts.iter().map(|&(i, share)| share * share / p(i).mass).sum();
+            let stiff = s.stiffness / deep.powi(3) / (s.stand * s.stand);
+            self.rate = self.rate.max((stiff * inertia).sqrt());
+            let mut drag = 0.0;
+            if approach > 0.0 {
+                let of = |i: usize| {
+                    let p = p(i);
+                    (p.mass * p.sound / (0.5 * self.bodies[p.body].edge), p.sound)
+                };
+                let half = |pick: fn((f64, f64)) -> f64| {
+                    let face: f64 = s.face.iter().map(|&(i, share)| share * pick(of(i))).sum();
+                    0.5 * (pick(of(s.particle)) + face)
+                };
+                let bodies = [s.particle, s.face[0].0].map(|i| &self.bodies[p(i).body]);
+                let slope = 0.5 * (bodies[0].s + bodies[1].s);
+                let steep = self.method.visc_quad * slope * approach / half(|x| x.1);
+                let nu = half(|x| x.0) * (steep + steep.hypot(self.method.visc_linear));
+                self.rate = self.rate.max(2.0 * nu * inertia);
+                drag = nu * approach;
+            }
+            let way = s.way;
+            for (i, share) in parts {
+                let p = &mut self.particles[i];
+                p.touched = true;
+                p.force = add(p.force, times(way, share * (force + drag)));
+            }
+            (self.springs[k].force, self.springs[k].drag) = (force, drag);
+        }
+    }
+
     fn elect(&mut self) -> f64 {
         let mut dt = self.allowed[0];
         for solid in &self.bodies {
@@ -719,6 +900,21 @@ impl Plain {
                 let p = &mut self.particles[contact.pair[k]];
                 p.contact_rate += contact.row[k] * closing;
                 p.heat += kick * (contact.push[k] + 0.5 * contact.drag) * closing;
+            }
+        }
+    }
+
+    fn spring_work(&mut self, kick: f64) {
+        for spring in &self.springs {
+            let mean = |i: usize| {
+                let p = &self.particles[i];
+                add(p.mean, self.bodies[p.body].velocity)
+            };
+            let parts = spring.parts();
+            let velocity = parts.iter().map(|&(i, share)| times(mean(i), share));
+            let approach = -dot(spring.way, velocity.fold([0.0; 3], add));
+            for (i, share) in parts {
+                self.particles[i].heat += 0.5 * kick * share.abs() * spring.drag * approach;
             }
         }
     }
@@ -770,6 +966,7 @@ impl Plain {
     }
 
     fn bury(&mut self) {
+        let before = self.deaths;
         for e in 0..self.elements.len() {
             let element = &mut self.elements[e];
             if !(element.live && element.dying) {
@@ -782,6 +979,32 @@ impl Plain {
                 p.live -= if i == self.elements[e].centre { 8 } else { 1 };
                 p.exposed = true;
             }
+        }
+        if self.deaths > before {
+            self.let_go();
+        }
+    }
+
+    /// Energy of springs on dead faces is heat; particles feel what appears from where they are.
+    fn let_go(&mut self) {
+        let old = std::mem::take(&mut self.springs);
+        let pressed: Vec<usize> = old
+            .iter()
+            .filter(|s| self.elements[s.element].live && s.force > 0.0)
+            .map(|s| s.particle)
+            .collect();
+        for spring in old.iter().filter(|s| !self.elements[s.element].live) {
+            let face = spring.face.map(|(i, _)| i);
+            let mut now = self.spring_on(spring.particle, spring.element, face);
+            now.z /= spring.stand;
+            for (i, share) in now.parts() {
+                let p = &mut self.particles[i];
+                p.u += 0.5 * share.abs() * now.energy() / p.mass;
+            }
+        }
+        self.find_springs();
+        for spring in self.springs.iter().filter(|s| !pressed.contains(&s.particle)) {
+            self.stands[spring.particle] = (spring.z * spring.stand).min(spring.stand);
         }
     }
 }

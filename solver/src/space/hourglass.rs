@@ -1,0 +1,170 @@
+//! Stiffness against the modes of a cell that strain, volumes and pyramids hardly see: the four
+//! hourglass modes of its corners, and the motion of its centroid against them.
+//!
+//! An amplitude is a sum of positions with weights that vanish for every affine motion of the lattice,
+//! and the energy depends on its size alone. So translation, rotation and homogeneous strain stay free
+//! of force, and momentum, angular momentum and energy are kept.
+
+use super::lanes::Lanes;
+use super::mesh::Body;
+use super::method::Method;
+
+type V3<F> = [F; 3];
+
+/// Weights of the corners in the four modes, over 8: products of two and of all three signs of a corner.
+const MODES: [[f64; 8]; 4] = {
+    let mut modes = [[0.0; 8]; 4];
+    let mut slot = 0;
+    while slot < 8 {
+        let (a, b, c) = (sign(slot, 0), sign(slot, 1), sign(slot, 2));
+        modes[0][slot] = 0.125 * a * b;
+        modes[1][slot] = 0.125 * b * c;
+        modes[2][slot] = 0.125 * c * a;
+        modes[3][slot] = 0.125 * a * b * c;
+        slot += 1;
+    }
+    modes
+};
+
+const fn sign(slot: usize, axis: usize) -> f64 {
+    if slot >> axis & 1 == 1 { 1.0 } else { -1.0 }
+}
+
+/// Stiffness of the modes of a body's cells.
+#[derive(Debug, Clone, Copy)]
+pub struct Hourglass {
+    /// Of the hourglass modes: energy over the square of an amplitude, twice.
+    corners: f64,
+    /// Of the centroid against the corners.
+    centroid: f64,
+}
+
+impl Hourglass {
+    /// As a method has it; none if it has none.
+    #[inline(always)]
+    pub fn of(method: &Method, body: &Body) -> Option<Self> {
+        if method.hourglass == 0.0 && method.centring == 0.0 {
+            return None;
+        }
+        let sound = body.solid.sound;
+        let edge = body.solid.edge;
+        let unit = body.rho_0 * sound * sound * body.cell_volume / (edge * edge);
+        Some(Self { corners: method.hourglass * unit, centroid: method.centring * unit })
+    }
+
+    /// Amplitudes of the corners' modes and of the centroid's.
+    #[inline(always)]
+    fn amplitudes<F: Lanes>(u: &[V3<F>; 9]) -> [V3<F>; 5] {
+        let mut out = [[F::zero(); 3]; 5];
+        for d in 0..3 {
+            for slot in 0..8 {
+                for mode in 0..4 {
+                    out[mode][d] += u[slot][d] * MODES[mode][slot];
+                }
+                out[4][d] += u[slot][d] * -0.125;
+            }
+            out[4][d] += u[8][d];
+        }
+        out
+    }
+
+    #[inline(always)]
+    fn stiffness(&self, mode: usize) -> f64 {
+        if mode < 4 { self.corners } else { self.centroid }
+    }
+
+    /// Energy of displacements.
+    #[inline(always)]
+    pub fn energy<F: Lanes>(&self, u: &[V3<F>; 9]) -> F {
+        let mut energy = F::zero();
+        for (mode, a) in Self::amplitudes(u).iter().enumerate() {
+            energy += (a[0] * a[0] + a[1] * a[1] + a[2] * a[2]) * (0.5 * self.stiffness(mode));
+        }
+        energy
+    }
+
+    /// Rate of that energy with velocities.
+    #[inline(always)]
+    pub fn power<F: Lanes>(&self, u: &[V3<F>; 9], v: &[V3<F>; 9]) -> F {
+        let mut power = F::zero();
+        let (a, b) = (Self::amplitudes(u), Self::amplitudes(v));
+        for mode in 0..5 {
+            let (a, b) = (&a[mode], &b[mode]);
+            power += (a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) * self.stiffness(mode);
+        }
+        power
+    }
+
+    /// Adds the forces, of as much of the stiffness as is left.
+    #[inline(always)]
+    pub fn push<F: Lanes>(&self, u: &[V3<F>; 9], left: F, force: &mut [V3<F>; 9]) {
+        let a = Self::amplitudes(u);
+        for d in 0..3 {
+            let back = a[4][d] * left * self.centroid;
+            for slot in 0..8 {
+                let mut sum = back * 0.125;
+                for mode in 0..4 {
+                    sum -= a[mode][d] * left * (self.corners * MODES[mode][slot]);
+                }
+                force[slot][d] += sum;
+            }
+            force[8][d] -= back;
+        }
+    }
+
+    /// Square of the fastest rate of the modes.
+    #[inline(always)]
+    pub fn rate_squared(&self, body: &Body) -> f64 {
+        // Half of the mass of a cell is at its corners, half at its centroid.
+        let mass = 0.5 * body.rho_0 * body.cell_volume;
+        (self.corners + 2.0 * self.centroid) / mass
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::lanes::F8;
+    use super::*;
+
+    fn slots(f: impl Fn([f64; 3]) -> [f64; 3]) -> [V3<F8>; 9] {
+        std::array::from_fn(|slot| {
+            let x = if slot == 8 { [0.0; 3] } else { std::array::from_fn(|d| sign(slot, d)) };
+            f(x).map(F8::splat)
+        })
+    }
+
+    #[test]
+    fn affine_motions_have_no_energy_and_the_modes_have() {
+        let glass = Hourglass { corners: 2.0, centroid: 2.0 };
+        let affine = slots(|[x, y, z]| [1.0 + 2.0 * x - y, 0.5 * z + 3.0 * y, x + y + z]);
+        assert!(glass.energy(&affine).0[0].abs() < 1e-28);
+        let bent = slots(|[x, y, _]| [x * y, 0.0, 0.0]);
+        assert!((glass.energy(&bent).0[0] - 1.0).abs() < 1e-15);
+        let twisted = slots(|[x, y, z]| [0.0, x * y * z, 0.0]);
+        assert!((glass.energy(&twisted).0[0] - 1.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn forces_are_minus_the_gradient_of_the_energy() {
+        let glass = Hourglass { corners: 2.0, centroid: 0.7 };
+        let u = slots(|[x, y, z]| [x * y + z, x * z * y + y, 0.3 * z * y - x * x]);
+        let mut force = [[F8::zero(); 3]; 9];
+        glass.push(&u, F8::splat(1.0), &mut force);
+        let step = 1e-6;
+        for slot in 0..9 {
+            for d in 0..3 {
+                let shifted = |by: f64| {
+                    let mut w = u;
+                    w[slot][d] += F8::splat(by);
+                    glass.energy(&w).0[0]
+                };
+                let slope = (shifted(step) - shifted(-step)) / (2.0 * step);
+                assert!((force[slot][d].0[0] + slope).abs() < 1e-9, "{slot} {d}");
+                let v = slots(|_| [0.0; 3]);
+                let mut v = v;
+                v[slot][d] = F8::splat(1.0);
+                assert!((glass.power(&u, &v).0[0] - slope).abs() < 1e-9);
+            }
+        }
+    }
+}
