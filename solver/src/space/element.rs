@@ -709,10 +709,10 @@ impl Group {
             let (behind, ahead) = (before * own, beyond * own);
             let mean = before * beyond * method.limiter / ((before + beyond) * own);
             let explained = mean.min(F::splat(1.0)).keep(behind.gt(zero) & ahead.gt(zero));
-            // What recedes is damped only if both neighbours close: it rings, and does not flow.
-            let rings = behind.lt(zero) & ahead.lt(zero);
-            let alive = self.live & (own.gt(zero) | rings);
-            let jump = (own * (F::splat(1.0) - explained)).keep(alive);
+            // What recedes is damped only as far as both neighbours close: it rings, and does not flow.
+            let rings = (-mean).min(F::splat(1.0)).keep(behind.lt(zero) & ahead.lt(zero));
+            let part = F::select(own.gt(zero), F::splat(1.0) - explained, rings);
+            let jump = (own * part).keep(self.live);
             let speed = jump * inverse.sqrt();
             let closing = speed.gt(zero);
             let sound = (seen.sound[slot] + seen.sound[CENTRE]) * 0.5;

@@ -248,13 +248,14 @@ impl Simulation {
             (&self.method, self.dt),
             (&mut self.sums, &mut self.touched, &mut self.active),
         );
-        let rate = self.surfaces.push(
+        let [rate, heat] = self.surfaces.push(
             (&self.mesh, &self.contacts),
             columns,
             &self.method,
             (&mut self.sums, &mut self.touched, &mut self.active),
         );
         self.demand.rate = self.demand.rate.max(rate);
+        self.spring_heat += heat;
     }
 
     /// The length of the step: what sound, the density and the elements allow, and landing on `until`.
@@ -484,6 +485,7 @@ impl Simulation {
             + self.sums.bytes()
             + self.groups.capacity() * std::mem::size_of::<Group>()
             + self.contacts.bytes()
+            + self.surfaces.bytes()
             + self.mesh.bytes()
             + self.touched.capacity()
     }

@@ -31,6 +31,9 @@ const STIFFNESS: f64 = 0.5;
 /// stiffer spring would dictate the time step.
 const DEEPEST: f64 = 0.2;
 
+/// Distance over that of the face of the last step below which a spring has jumped, not slid.
+const JUMP: f64 = 0.8;
+
 /// Approach in a step over the distance, before the safety of the step.
 const APPROACH: f64 = 0.4;
 
@@ -75,8 +78,6 @@ impl Law {
 struct Face {
     /// Its corners, in order round it.
     nodes: [usize; 4],
-    /// Centroid of the element.
-    cell: usize,
 }
 
 /// A particle in front of a surface, in touch with it or not.
@@ -137,9 +138,10 @@ pub struct Surfaces {
     stand: Vec<f64>,
     /// Nearest node of another body's surface and the square of its distance, by member.
     nearest: Vec<(f64, u32)>,
+    /// By member, in order.
     springs: Vec<Spring>,
-    /// Members on springs that outlive dying elements.
-    pressed: Vec<bool>,
+    /// Those of the last step.
+    before: Vec<Spring>,
 }
 
 impl Surfaces {
@@ -173,29 +175,35 @@ impl Surfaces {
     }
 
     /// Forces on particles and surfaces, and the marks of touched particles. Returns the inverse of
-    /// the longest stable step.
+    /// the longest stable step, and the heat of springs that let go.
     pub fn push(
         &mut self,
         (mesh, contacts): (&Mesh, &Contacts),
         (state, derived): (&State, &Derived),
         method: &Method,
         (sums, touched, active): (&mut Sums, &mut [bool], &mut [bool]),
-    ) -> f64 {
+    ) -> [f64; 2] {
         if !self.some {
-            return 0.0;
+            return [0.0; 2];
         }
-        self.look(mesh, contacts);
+        let heat = self.renew((mesh, contacts), |i, energy| sums.heat[i] += energy);
         let velocity = |i: usize| [state.vx[i], state.vy[i], state.vz[i]];
         let mut rate = 0.0f64;
         for spring in &mut self.springs {
             let approach = spring.approach(mesh, velocity);
             rate = rate.max(approach / (APPROACH * spring.distance.max(DEEPEST * spring.stand)));
             let z = spring.distance / spring.stand;
+            let inertia: f64 = spring.shares().map(|(i, w)| w * w / mesh.mass[i]).sum();
+            let body = &mesh.bodies[spring.body];
+            let soon = spring.stand + approach * body.edge() / body.solid.sound;
+            if spring.distance < soon {
+                let stiffness = spring.area * spring.stiffness * Law::stiffness(z.min(1.0));
+                rate = rate.max((stiffness * inertia).sqrt() / spring.stand);
+            }
             if z >= 1.0 {
                 continue;
             }
             spring.force = spring.area * spring.stiffness * Law::force(z) / spring.stand;
-            let inertia: f64 = spring.shares().map(|(i, w)| w * w / mesh.mass[i]).sum();
             if approach > 0.0 {
                 let (impedance, sound) = resistance(mesh, derived, spring);
                 let bodies = [spring.body, spring.other].map(|b| &mesh.bodies[b]);
@@ -204,9 +212,6 @@ impl Surfaces {
                 spring.drag = coefficient * approach;
                 rate = rate.max(DAMPING * coefficient * inertia);
             }
-            let stiffness = spring.area * spring.stiffness * Law::stiffness(z);
-            let stiffness = stiffness / (spring.stand * spring.stand);
-            rate = rate.max((stiffness * inertia).sqrt());
             let force = spring.force + spring.drag;
             for (i, share) in spring.shares() {
                 sums.fx[i] += share * force * spring.way[0];
@@ -216,7 +221,54 @@ impl Surfaces {
                 active[mesh.piece_of(i)] = true;
             }
         }
-        rate
+        [rate, heat]
+    }
+
+    /// Finds the springs anew. One that has jumped to a much nearer face, or appears, begins where it
+    /// is, so that no energy comes from nothing; the energy of one that jumped or went is heat, which
+    /// is given to its particles and returned.
+    fn renew(
+        &mut self,
+        (mesh, contacts): (&Mesh, &Contacts),
+        mut give: impl FnMut(usize, f64),
+    ) -> f64 {
+        std::mem::swap(&mut self.springs, &mut self.before);
+        self.look(mesh, contacts);
+        let mut heat = 0.0;
+        let mut new = self.springs.iter_mut().peekable();
+        let mut begin = |spring: &mut Spring| {
+            spring.stand = spring.stand.min(spring.distance);
+            self.stand[spring.member] = spring.stand;
+        };
+        for old in &mut self.before {
+            while let Some(spring) = new.next_if(|spring| spring.member < old.member) {
+                begin(spring);
+            }
+            let same = new.next_if(|spring| spring.member == old.member);
+            let known = old.see(contacts);
+            if let Some(spring) = same {
+                if known && spring.distance >= JUMP * old.distance {
+                    continue;
+                }
+                begin(spring);
+            }
+            if known && old.force > 0.0 {
+                let energy = old.energy();
+                old.shares().for_each(|(i, share)| give(i, 0.5 * share.abs() * energy));
+                heat += energy;
+            }
+        }
+        new.for_each(begin);
+        heat
+    }
+
+    /// Bytes that it takes.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        let springs = self.springs.capacity() + self.before.capacity();
+        self.stand.capacity() * 8
+            + self.nearest.capacity() * 16
+            + springs * std::mem::size_of::<Spring>()
     }
 
     /// Viscous heat over the mean velocity of the step. Returns the work on the springs.
@@ -250,31 +302,13 @@ impl Surfaces {
         all
     }
 
-    /// After elements died: the energy of springs on them becomes heat, and particles that stand
-    /// close to the surfaces that appear feel them from there on. Returns the heat.
+    /// After elements died: other surfaces are in front of particles. Returns the heat of springs that
+    /// let go.
     pub fn release(&mut self, mesh: &Mesh, contacts: &Contacts, u: &mut [f64]) -> f64 {
         if !self.some {
             return 0.0;
         }
-        self.pressed.clear();
-        self.pressed.resize(contacts.members(), false);
-        let mut heat = 0.0;
-        for spring in &mut self.springs {
-            if mesh.held(spring.face.cell) {
-                self.pressed[spring.member] = spring.force > 0.0;
-            } else if spring.see(contacts) {
-                let energy = spring.energy();
-                for (i, share) in spring.shares() {
-                    u[i] += 0.5 * share.abs() * energy / mesh.mass[i];
-                }
-                heat += energy;
-            }
-        }
-        self.look(mesh, contacts);
-        for spring in self.springs.iter().filter(|spring| !self.pressed[spring.member]) {
-            self.stand[spring.member] = spring.distance.min(spring.stand);
-        }
-        heat
+        self.renew((mesh, contacts), |i, energy| u[i] += energy / mesh.mass[i])
     }
 
     /// Finds the springs at the present positions.
@@ -384,17 +418,18 @@ fn each_face(mesh: &Mesh, body: usize, at: [i16; 3], mut f: impl FnMut(Face)) {
     let own = &mesh.bodies[body];
     let live = |at: [i16; 3]| {
         let cell = own.lattice.cell(at);
-        let cell = (cell != NONE).then(|| own.centroids.start + cell as usize)?;
-        mesh.held(cell).then_some(cell)
+        cell != NONE && mesh.held(own.centroids.start + cell as usize)
     };
     for corner in 0..8 {
         let side: [i16; 3] = std::array::from_fn(|d| if corner >> d & 1 == 1 { 1 } else { -1 });
         let centre: [i16; 3] = std::array::from_fn(|d| at[d] + side[d]);
-        let Some(cell) = live(centre) else { continue };
+        if !live(centre) {
+            continue;
+        }
         for axis in 0..3 {
             let mut beyond = centre;
             beyond[axis] -= 2 * side[axis];
-            if live(beyond).is_some() {
+            if live(beyond) {
                 continue;
             }
             let nodes = [[-1, -1], [1, -1], [1, 1], [-1, 1]].map(|step: [i16; 2]| {
@@ -404,7 +439,7 @@ fn each_face(mesh: &Mesh, body: usize, at: [i16; 3], mut f: impl FnMut(Face)) {
                 node[(axis + 2) % 3] += step[1];
                 own.nodes.start + own.lattice.node(node) as usize
             });
-            f(Face { nodes, cell });
+            f(Face { nodes });
         }
     }
 }

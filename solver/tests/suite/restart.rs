@@ -58,7 +58,7 @@ fn rod_on_plate(preset: Preset) -> Scene {
         walls: vec![Wall { axis: 2, position: -0.201, material: Side::Above, hold: Hold::Rest }],
         materials: vec![metal("tungsten", 17.6, 0.403, 1.45), metal("steel", 7.87, 0.458, 0.801)],
         bodies: vec![
-            body("rod", "tungsten", rod, [3, 3, 7], [-1.2, -0.8, 0.31], [0.0, 0.1, -0.4]),
+            body("rod", "tungsten", rod, [3, 3, 7], [-1.2, -0.8, 0.32], [0.0, 0.1, -0.4]),
             body("plate", "steel", plate, [30, 32, 2], [0.0, 0.0, -0.1], [0.0; 3]),
         ],
     }

@@ -431,7 +431,9 @@ impl Plain {
             }
         }
         self.touch();
-        self.find_springs();
+        for (i, energy) in self.renew_springs() {
+            self.particles[i].heat += energy;
+        }
         self.spring();
         let before = self.dt;
         self.dt = self.elect();
@@ -593,13 +595,15 @@ impl Plain {
             let beyond = self.elements[e].beyond[slot].filter(|&b| self.elements[b].live);
             let beyond = beyond
                 .map_or(0.0, |b| dot(along, sub(n.v, self.particles[self.elements[b].centre].v)));
-            let explained = if before * own > 0.0 && beyond * own > 0.0 {
-                (method.limiter * before * beyond / ((before + beyond) * own)).min(1.0)
-            } else {
-                0.0
-            };
+            let mean = method.limiter * before * beyond / ((before + beyond) * own);
+            let same = before * own > 0.0 && beyond * own > 0.0;
             let rings = before * own < 0.0 && beyond * own < 0.0;
-            let jump = if own > 0.0 || rings { own * (1.0 - explained) } else { 0.0 };
+            let jump = match (own > 0.0, same, rings) {
+                (true, true, _) => own * (1.0 - mean.min(1.0)),
+                (true, false, _) => own,
+                (false, _, true) => own * (-mean).min(1.0),
+                (false, _, false) => 0.0,
+            };
             let sound = 0.5 * (n.sound + x.sound);
             let rho = 0.5 * (n.rho_now + x.rho_now);
             let nu = rho
@@ -797,7 +801,16 @@ impl Plain {
                 if self.particles[i].body == body || !self.particles[i].exposed {
                     continue;
                 }
-                let all = surface.iter().map(|&(e, face)| self.spring_on(i, e, face));
+                // The faces round the nearest node.
+                let x = self.position(i);
+                let away = |&node: &usize| {
+                    let r = sub(self.position(node), x);
+                    dot(r, r)
+                };
+                let nodes = surface.iter().flat_map(|(_, face)| face).copied();
+                let Some(node) = nodes.min_by(|a, b| away(a).total_cmp(&away(b))) else { continue };
+                let round = surface.iter().filter(|(_, face)| face.contains(&node));
+                let all = round.map(|&(e, face)| self.spring_on(i, e, face));
                 let Some(mut spring) = all.min_by(|a, b| a.z.total_cmp(&b.z)) else { continue };
                 let edges = self.bodies[body].edge + self.bodies[self.particles[i].body].edge;
                 let full = 0.25 * edges;
@@ -813,6 +826,34 @@ impl Plain {
         }
     }
 
+    /// Springs that slide go on; others begin where they are, and what they had is returned.
+    fn renew_springs(&mut self) -> Vec<(usize, f64)> {
+        let old = std::mem::take(&mut self.springs);
+        self.find_springs();
+        let mut heat = Vec::new();
+        let mut slid = Vec::new();
+        for old in old {
+            let mut was = self.spring_on(old.particle, old.element, old.face.map(|(i, _)| i));
+            let now = self.springs.iter().find(|s| s.particle == old.particle);
+            if now.is_some_and(|now| now.z * now.stand >= 0.8 * was.z) {
+                slid.push(old.particle);
+            } else if old.force > 0.0 {
+                was.stand = old.stand;
+                was.z /= was.stand;
+                let energy = was.energy();
+                let parts = was.parts().into_iter();
+                heat.extend(parts.map(|(i, share)| (i, 0.5 * share.abs() * energy)));
+            }
+        }
+        for s in self.springs.iter_mut().filter(|s| !slid.contains(&s.particle)) {
+            let distance = s.z * s.stand;
+            s.stand = s.stand.min(distance);
+            s.z = distance / s.stand;
+            self.stands[s.particle] = s.stand;
+        }
+        heat
+    }
+
     fn spring(&mut self) {
         for k in 0..self.springs.len() {
             let s = &self.springs[k];
@@ -821,14 +862,17 @@ impl Plain {
             let velocity = parts.iter().map(|&(i, share)| times(self.velocity(i), share));
             let approach = -dot(s.way, velocity.fold([0.0; 3], add));
             self.rate = self.rate.max(approach / (0.4 * s.stand * s.z.max(0.2)));
+            let inertia: f64 = parts.iter().map(|&(i, share)| share * share / p(i).mass).sum();
+            let solid = &self.bodies[p(s.particle).body];
+            if s.z * s.stand < s.stand + approach * solid.edge / solid.fast {
+                let stiff = s.stiffness / s.z.clamp(0.2, 1.0).powi(3);
+                self.rate = self.rate.max((stiff * inertia).sqrt() / s.stand);
+            }
             if s.z >= 1.0 {
                 continue;
             }
             let deep = s.z.max(0.2);
             let force = s.stiffness * 0.5 * (1.0 / (deep * deep) - 1.0) / s.stand;
-            let inertia: f64 = parts.iter().map(|&(i, share)| share * share / p(i).mass).sum();
-            let stiff = s.stiffness / deep.powi(3) / (s.stand * s.stand);
-            self.rate = self.rate.max((stiff * inertia).sqrt());
             let mut drag = 0.0;
             if approach > 0.0 {
                 let of = |i: usize| {
@@ -981,30 +1025,10 @@ impl Plain {
             }
         }
         if self.deaths > before {
-            self.let_go();
-        }
-    }
-
-    /// Energy of springs on dead faces is heat; particles feel what appears from where they are.
-    fn let_go(&mut self) {
-        let old = std::mem::take(&mut self.springs);
-        let pressed: Vec<usize> = old
-            .iter()
-            .filter(|s| self.elements[s.element].live && s.force > 0.0)
-            .map(|s| s.particle)
-            .collect();
-        for spring in old.iter().filter(|s| !self.elements[s.element].live) {
-            let face = spring.face.map(|(i, _)| i);
-            let mut now = self.spring_on(spring.particle, spring.element, face);
-            now.z /= spring.stand;
-            for (i, share) in now.parts() {
+            for (i, energy) in self.renew_springs() {
                 let p = &mut self.particles[i];
-                p.u += 0.5 * share.abs() * now.energy() / p.mass;
+                p.u += energy / p.mass;
             }
-        }
-        self.find_springs();
-        for spring in self.springs.iter().filter(|s| !pressed.contains(&s.particle)) {
-            self.stands[spring.particle] = (spring.z * spring.stand).min(spring.stand);
         }
     }
 }
