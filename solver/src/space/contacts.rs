@@ -35,7 +35,6 @@ pub struct Contacts {
     members: Vec<u32>,
     /// Member that a particle is.
     index: Vec<u32>,
-    reference: [Vec<f64>; 3],
     position: [Vec<f64>; 3],
     length: Vec<f32>,
     flags: Vec<u8>,
@@ -165,12 +164,33 @@ impl Contacts {
             longest: mesh.bodies.iter().map(|b| b.length).fold(0.0, f64::max),
             ..Self::default()
         };
-        for i in mesh.real() {
-            if !volumes || mesh.exposed(i) {
-                contacts.expose(mesh, i);
-            }
+        // In the order of the particles, so that steps go through memory in one direction.
+        let exposed = |i: &usize| !volumes || mesh.exposed(*i);
+        let mut chosen = vec![!volumes; mesh.len];
+        for i in mesh.real().filter(|i| volumes && exposed(i)) {
+            let (body, place) = mesh.place(i);
+            chosen[i] = true;
+            mesh.within_two_cells(body, place).for_each(|near| chosen[near] = true);
+        }
+        let members = mesh.real().filter(|&i| chosen[i]).count();
+        contacts.reserve(mesh.particles.min(members + members / 8));
+        for i in mesh.real().filter(|&i| chosen[i]) {
+            contacts.admit(mesh, i);
+        }
+        for i in mesh.real().filter(exposed) {
+            contacts.expose(mesh, i);
         }
         contacts
+    }
+
+    /// Makes room for so many members.
+    fn reserve(&mut self, n: usize) {
+        self.members.reserve_exact(n);
+        self.position.iter_mut().for_each(|x| x.reserve_exact(n));
+        self.length.reserve_exact(n);
+        self.flags.reserve_exact(n);
+        self.body.reserve_exact(n);
+        self.place.reserve_exact(n);
     }
 
     /// Makes a particle able to touch any other, and members of those within two cells.
@@ -200,9 +220,8 @@ impl Contacts {
         self.index[i] = member as u32;
         self.members.push(i as u32);
         let x = mesh.bodies[body].lattice.position(place);
-        for (d, x) in x.into_iter().enumerate() {
-            self.reference[d].push(x);
-            self.position[d].push(x);
+        for (position, x) in self.position.iter_mut().zip(x) {
+            position.push(x);
         }
         self.length.push(mesh.bodies[body].length as f32);
         self.flags.push(0);
@@ -255,14 +274,14 @@ impl Contacts {
     /// whether it was.
     pub fn refresh(&mut self, mesh: &Mesh, state: &State, method: &Method) -> bool {
         let own = [&state.dx, &state.dy, &state.dz];
-        let (members, body) = (&self.members, &self.body);
+        let (members, body, place) = (&self.members, &self.body, &self.place);
         for (d, own) in own.into_iter().enumerate() {
-            let reference = &self.reference[d];
             self.position[d].par_chunks_mut(BLOCK).enumerate().for_each(|(k, x)| {
                 for (at, x) in x.iter_mut().enumerate() {
                     let at = at + k * BLOCK;
-                    let way = mesh.bodies[body[at] as usize].way[d];
-                    *x = reference[at] + (way + own[members[at] as usize]);
+                    let body = &mesh.bodies[body[at] as usize];
+                    let start = body.lattice.coordinate(place[at], d);
+                    *x = start + (body.way[d] + own[members[at] as usize]);
                 }
             });
         }
@@ -318,7 +337,9 @@ impl Contacts {
     pub(super) fn recall(&mut self, mesh: &Mesh, memory: &Memory, method: &Method) {
         let (longest, kernel, volumes) = (self.longest, self.kernel.take(), self.volumes);
         *self = Self { index: vec![NONE; mesh.len], longest, kernel, volumes, ..Self::default() };
-        for i in in_order(&memory.index) {
+        let order = in_order(&memory.index);
+        self.reserve(mesh.particles.min(order.len() + order.len() / 8));
+        for i in order {
             let member = self.admit(mesh, i as usize);
             self.flags[member] = memory.flags[i as usize];
             for (position, places) in self.position.iter_mut().zip(&memory.places) {
@@ -437,7 +458,7 @@ impl Contacts {
     #[must_use]
     pub fn bytes(&self) -> usize {
         let blocks: usize = self.blocks.iter().map(Vec::capacity).sum();
-        self.members.capacity() * (4 + 48 + 4 + 1 + 2 + 6)
+        self.members.capacity() * (4 + 24 + 4 + 1 + 2 + 6)
             + self.list.bytes()
             + self.kernel.as_ref().map_or(0, Kernel::bytes)
             + 16 * self.terms.iter().map(Vec::capacity).sum::<usize>()

@@ -309,7 +309,7 @@ impl Group {
         }
         let (node, centre) = (node - sink.first_node, centre - sink.first_centre);
         for (sums, at) in [(&sink.nodes, node), (&sink.centres, centre)] {
-            for column in [&*sums.fx, &*sums.fy, &*sums.fz, &*sums.volume, &*sums.heat] {
+            for column in [&*sums.fx, &*sums.fy, &*sums.fz, &*sums.heat] {
                 F::fetch(column.get(at..).unwrap_or_default());
             }
         }
@@ -333,10 +333,14 @@ impl Group {
     /// A column at the nine slots.
     #[inline(always)]
     fn gather<F: Lanes>(&self, column: &[f64]) -> [F; 9] {
-        each!(slot => {
-            let at = if slot == CENTRE { self.centre as usize } else { self.node(slot) };
-            F::load(column, at)
-        })
+        let mut out = [F::zero(); 9];
+        for row in 0..4 {
+            let at = self.rows[row] as usize;
+            let nodes = &column[at..at + LANES + 1];
+            (out[2 * row], out[2 * row + 1]) = (F::load(nodes, 0), F::load(nodes, 1));
+        }
+        out[CENTRE] = F::load(column, self.centre as usize);
+        out
     }
 
     /// A vector column at the nine slots.
@@ -417,7 +421,7 @@ impl Group {
         y
     }
 
-    /// First pass: forces, volumes, conduction and the heat of flow and damage.
+    /// First pass: forces, conduction and the heat of flow and damage.
     #[inline(always)]
     pub fn load_particles<F: Lanes>(
         &mut self,
@@ -476,7 +480,7 @@ impl Group {
         }
         let mut damping = F::zero();
         if laws.volumes {
-            self.carry(&pyramids, (laws, read), &mut push, sink);
+            self.carry((laws, read), &mut push);
             let v: [V3<F>; 9] = self.gather_vector(read.velocity);
             let sound: [F; 9] = self.gather(read.sound);
             if laws.method.visc_volume > 0.0 {
@@ -501,32 +505,19 @@ impl Group {
         Demand { rate: rate.keep(live).largest(), dying: self.dying != 0, heat: freed.sum() }
     }
 
-    /// Pressure of the particles on the pyramids, and the pyramids' share in the particles' volumes:
-    /// half of each to the centroid, the rest to the corners of its face and, by `balance`, of the
-    /// opposite face (decision 0013).
+    /// Pressure of the particles on the pyramids: half of that of the centroid, the rest of the corners
+    /// of its face and, by `balance`, of the opposite face (decision 0013).
     #[inline(always)]
-    fn carry<F: Lanes>(
-        &self,
-        pyramids: &[Pyramid<F>; 6],
-        (laws, read): (&Laws, &Read<'_>),
-        push: &mut [F; 6],
-        sink: &mut Sink<SumsSlices<'_>>,
-    ) {
-        let live = self.live;
+    fn carry<F: Lanes>(&self, (laws, read): (&Laws, &Read<'_>), push: &mut [F; 6]) {
         let grip: [F; 9] = self.gather(read.grip);
         let [own, other] = corner_weights(laws.method.balance);
         let all = ((grip[0] + grip[1]) + (grip[2] + grip[3]))
             + ((grip[4] + grip[5]) + (grip[6] + grip[7]));
         let base = grip[CENTRE] * 0.5 + all * other;
-        let mut growth = [F::zero(); 6];
-        for (k, face) in FACES.into_iter().enumerate() {
+        for (push, face) in push.iter_mut().zip(FACES) {
             let corners = (grip[face[0]] + grip[face[1]]) + (grip[face[2]] + grip[face[3]]);
-            push[k] += (base + corners * own).keep(live);
-            growth[k] = pyramids[k].growth.keep(live);
+            *push += (base + corners * own).keep(self.live);
         }
-        let share = shares(&growth, laws.method.balance);
-        self.scatter(&share, sink.nodes.volume, sink.first_node);
-        self.scatter_centre(share[CENTRE], sink.centres.volume, sink.first_centre);
     }
 
     /// Viscous pressure of pyramids that collapse: `rho q w^2` with the closing speed `w` over their
@@ -633,11 +624,19 @@ impl Group {
         let mut own =
             Flowing { strain: &mut self.strain, flow: &mut self.flow, rate: &mut self.rate };
         let stress = body.solid.flow(&total, &mut plastic, &mut own, &load);
+        let step: Sym<F> = each!(k => plastic[k] - before[k]);
+        let mut flowed = 0;
         for k in 0..6 {
             self.stress[k] = stress[k].pack();
-            self.plastic[k] = plastic[k].pack();
+            flowed |= step[k].lt(F::zero()) | step[k].gt(F::zero());
         }
-        let step: Sym<F> = each!(k => plastic[k] - before[k]);
+        // Most elements do not flow, and what does not change need not be written.
+        if flowed == 0 {
+            return F::zero();
+        }
+        for (own, plastic) in self.plastic.iter_mut().zip(plastic) {
+            *own = plastic.pack();
+        }
         let mean: Sym<F> = each!(k => (stress[k] + old[k]) * 0.5);
         contract(&mean, &step) * body.cell_volume
     }
@@ -734,8 +733,8 @@ impl Group {
         most * body.damping()
     }
 
-    /// Second pass: volume rates, the viscous heat, and the power of the elements' own forces, all
-    /// over the mean velocity of the step. Returns that power.
+    /// Second pass: volumes and, all over the mean velocity of the step, their rates, the viscous heat,
+    /// and the power of the elements' own forces. Returns that power.
     #[inline(always)]
     pub fn work<F: Lanes>(&self, body: &Body, laws: &Laws, sink: &mut Sink<AllSlices<'_>>) -> f64 {
         let first = [sink.first_node, sink.first_centre];
@@ -746,10 +745,11 @@ impl Group {
         let v: [V3<F>; 9] = self.gather_own(nodes.2.mean(), centres.2.mean(), first);
         let intact = F::splat(1.0) - F::of(self.damage);
         let mut power = F::zero();
-        let mut rates = [F::zero(); 6];
+        let (mut growths, mut rates) = ([F::zero(); 6], [F::zero(); 6]);
         for (k, face) in FACES.into_iter().enumerate() {
             let pyramid = Pyramid::new(&y, face, body.pyramids[k]);
             let opening = pyramid.growth * body.per_pyramid[k];
+            growths[k] = pyramid.growth.keep(self.live);
             let rate = pyramid.rate(&v, face).keep(self.live);
             power += tension(opening, intact, body) * rate;
             rates[k] = rate;
@@ -770,6 +770,10 @@ impl Group {
             power += (shear * body.cell_volume).keep(self.live);
         }
         if laws.volumes {
+            // The particles have the same shares in the volumes as in the pressure on them.
+            let share = shares(&growths, laws.method.balance);
+            self.scatter(&share, nodes.2.volume, first[0]);
+            self.scatter_centre(share[CENTRE], centres.2.volume, first[1]);
             let share = shares(&rates, laws.method.balance);
             self.scatter(&share, nodes.2.volume_rate, first[0]);
             self.scatter_centre(share[CENTRE], centres.2.volume_rate, first[1]);

@@ -235,14 +235,15 @@ impl Lattice {
     /// Position of these coordinates at the start.
     #[must_use]
     pub fn position(&self, at: [i16; 3]) -> [f64; 3] {
-        let mut x = self.origin;
-        for (k, at) in at.into_iter().enumerate() {
-            let along = 0.5 * self.size[k] * f64::from(at);
-            for (d, x) in x.iter_mut().enumerate() {
-                *x += along * self.axes[k][d];
-            }
-        }
-        x
+        std::array::from_fn(|d| self.coordinate(at, d))
+    }
+
+    /// One component of that position.
+    #[inline(always)]
+    #[must_use]
+    pub fn coordinate(&self, at: [i16; 3], d: usize) -> f64 {
+        let along = |k: usize| 0.5 * self.size[k] * f64::from(at[k]) * self.axes[k][d];
+        self.origin[d] + along(0) + along(1) + along(2)
     }
 
     /// Bytes that it takes.

@@ -196,6 +196,7 @@ impl Mesh {
         if scene.method.visc_volume > 0.0 {
             groups.iter_mut().for_each(|group| group.stiff = Some(Box::default()));
         }
+        groups.shrink_to_fit();
         mesh.cut(&nodes);
         mesh.cut(&centroids);
         (mesh, groups)

@@ -155,6 +155,13 @@ impl Simulation {
         self.asleep = false;
     }
 
+    /// Computes with these instructions if the processor has them, which changes no bit of the answer.
+    pub fn compute_with(&mut self, instructions: Instructions) {
+        if Instructions::available().any(|own| own == instructions) {
+            self.instructions = instructions;
+        }
+    }
+
     /// Whether anything moves in a piece, in the frame of its body, or is pushed or under pressure.
     fn stirs(&self, piece: usize) -> bool {
         let range = self.mesh.pieces[piece].range.clone();
@@ -197,7 +204,7 @@ impl Simulation {
         self.keep_in(dt);
         // What a contact or a wall pushes strains elements in this step already.
         self.wake();
-        self.drift();
+        self.advance();
         self.touch();
         self.time = if dt >= until - self.time { until } else { self.time + dt };
         self.bury();
@@ -311,7 +318,7 @@ impl Simulation {
     /// The rest of the step in one pass through memory: velocities at the middle of the next drift,
     /// Eq. (74); rates over the mean velocity, by which what forces take from motion becomes heat,
     /// pressure work and strain; Eqs. (36), (58), (76), and the equation of state (22).
-    fn drift(&mut self) {
+    fn advance(&mut self) {
         let (mesh, state, sums) = (&self.mesh, &self.state, &mut self.sums);
         let half = 0.5 * self.kick;
         let force = [&sums.fx, &sums.fy, &sums.fz];

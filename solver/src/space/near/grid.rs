@@ -45,8 +45,6 @@ pub(super) struct Grid {
     pub(super) traces: Vec<Trace>,
     /// All members; in each cell the exposed ones first, and then by index.
     pub(super) all: Vec<Member>,
-    /// The exposed members.
-    pub(super) exposed: Vec<Member>,
     /// Inverse of the longest reach.
     pub(super) scale: f64,
 }
@@ -54,13 +52,27 @@ pub(super) struct Grid {
 impl Grid {
     /// Bytes that it takes.
     pub(super) fn bytes(&self) -> usize {
-        let members = held(&self.all) + held(&self.exposed);
         let cells = held(&self.keys) + held(&self.start) + held(&self.start_exposed);
-        self.sorter.bytes() + members + cells + held(&self.traces)
+        self.sorter.bytes() + held(&self.all) + cells + held(&self.traces)
+    }
+
+    /// Members of a cell.
+    #[inline(always)]
+    pub(super) fn members(&self, cell: u32) -> &[Member] {
+        let cell = cell as usize;
+        &self.all[self.start[cell] as usize..self.start[cell + 1] as usize]
+    }
+
+    /// Exposed members of a cell.
+    #[inline(always)]
+    pub(super) fn exposed(&self, cell: usize) -> &[Member] {
+        let (start, before) = (self.start[cell] as usize, &self.start_exposed[cell..cell + 2]);
+        &self.all[start..start + (before[1] - before[0]) as usize]
     }
 
     /// Takes all members out.
     pub(super) fn clear(&mut self) {
+        self.all.clear();
         self.keys.clear();
         self.start.clear();
         self.start.push(0);
@@ -71,21 +83,15 @@ impl Grid {
         self.sort(points, far);
         self.cells(points);
         self.scale = 1.0 / far;
-        for table in [&mut self.all, &mut self.exposed] {
-            table.clear();
-            roomy(table, points.x.len());
-        }
+        self.all.clear();
+        roomy(&mut self.all, points.x.len());
         for item in &self.sorter.items {
             let i = item.id as usize;
             let own = (reach.factor * f64::from(points.length[i]) + reach.skin) * self.scale;
             // The last term covers the rounding of positions, relative to the longest reach.
             let limit = (own * (1.0 + SLACK) + SLACK).powi(2) as f32;
             let at = [points.x[i], points.y[i], points.z[i]];
-            let member = Member { at, limit, id: item.id };
-            self.all.push(member);
-            if points.is_exposed(item.id) {
-                self.exposed.push(member);
-            }
+            self.all.push(Member { at, limit, id: item.id });
         }
     }
 
@@ -123,15 +129,16 @@ impl Grid {
 
     fn cells(&mut self, points: &Points<'_>) {
         let items = &self.sorter.items;
+        let cells = items.chunk_by(|&a, &b| { a.key } == { b.key }).count();
         for buffer in [&mut self.start, &mut self.start_exposed] {
             buffer.clear();
-            roomy(buffer, items.len() + 1);
+            roomy(buffer, cells + 1);
         }
         self.keys.clear();
-        roomy(&mut self.keys, items.len());
+        roomy(&mut self.keys, cells);
         self.traces.clear();
         if points.lattice.is_some() {
-            roomy(&mut self.traces, items.len());
+            roomy(&mut self.traces, cells);
         }
         let mut exposed = 0;
         let mut before = None;

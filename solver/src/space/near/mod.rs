@@ -174,12 +174,12 @@ impl PairList {
     /// Whether two members not listed may be closer than `factor * max(length)`: never `false` if
     /// they are. Always `true` before the first rebuild and if the number of members has changed.
     pub fn is_stale(&mut self, points: &Points<'_>) -> bool {
-        self.members != Some(points.x.len()) || self.motion.is_large(points)
+        self.members != Some(points.x.len()) || self.motion.is_large(&self.grid, points)
     }
 
     /// Members and where they were when the list was made.
     pub fn made_at(&self) -> impl Iterator<Item = (u32, [f64; 3])> + '_ {
-        self.motion.members()
+        self.grid.all.iter().map(|member| (member.id, member.at))
     }
 
     /// Bytes that it takes.

@@ -50,10 +50,10 @@ struct Level {
 /// State of the members when the list was made.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Motion {
+    /// The cells of the grid, block by block.
     sorter: Sorter,
-    /// Members in front of each block, and of all.
+    /// Cells in front of each block, and of all.
     start: Vec<u32>,
-    members: Vec<Member>,
     /// Blocks, pairs of blocks, and so on up to a single node.
     levels: Vec<Level>,
     depth: usize,
@@ -97,12 +97,7 @@ impl Motion {
     pub(super) fn bytes(&self) -> usize {
         let levels: usize =
             self.levels.iter().map(|level| held(&level.places) + held(&level.moves)).sum();
-        self.sorter.bytes() + held(&self.start) + held(&self.members) + levels
-    }
-
-    /// Members and where they were.
-    pub(super) fn members(&self) -> impl Iterator<Item = (u32, [f64; 3])> + '_ {
-        self.members.iter().map(|member| (member.id, member.at))
+        self.sorter.bytes() + held(&self.start) + levels
     }
 
     /// Sets the limits for the list to come.
@@ -113,22 +108,17 @@ impl Motion {
     /// Remembers where the members are.
     pub(super) fn start(&mut self, grid: &Grid) {
         self.sort(grid);
-        self.members.clear();
-        roomy(&mut self.members, grid.all.len());
         self.start.clear();
         roomy(&mut self.start, self.sorter.items.len() + 1);
         let mut block = None;
-        for item in &self.sorter.items {
+        for (k, item) in (0..).zip(&self.sorter.items) {
             if block != Some(item.key) {
                 block = Some(item.key);
-                self.start.push(self.members.len() as u32);
+                self.start.push(k);
             }
-            let cell = item.id as usize;
-            let range = grid.start[cell] as usize..grid.start[cell + 1] as usize;
-            self.members.extend_from_slice(&grid.all[range]);
         }
-        self.start.push(self.members.len() as u32);
-        self.grow();
+        self.start.push(self.sorter.items.len() as u32);
+        self.grow(grid);
     }
 
     /// Puts the cells into the order of a space-filling curve over the blocks.
@@ -149,7 +139,7 @@ impl Motion {
     }
 
     /// Builds the tree over the blocks.
-    fn grow(&mut self) {
+    fn grow(&mut self, grid: &Grid) {
         let mut nodes = self.start.len() - 1;
         self.depth = 0;
         while nodes > 0 {
@@ -165,26 +155,27 @@ impl Motion {
             self.depth += 1;
             nodes = if nodes == 1 { 0 } else { nodes.div_ceil(2) };
         }
-        let Self { start, members, levels, depth, .. } = self;
+        let Self { sorter, start, levels, depth, .. } = self;
         let Some(leaves) = levels.first_mut() else { return };
         for (place, range) in leaves.places.iter_mut().zip(start.windows(2)) {
-            for member in &members[range[0] as usize..range[1] as usize] {
-                place.add(member.at);
+            for cell in &sorter.items[range[0] as usize..range[1] as usize] {
+                grid.members(cell.id).iter().for_each(|member| place.add(member.at));
             }
         }
         climb(&mut levels[..*depth], |level| &mut level.places);
     }
 
     /// Whether two members that were apart by more than the skin may be in contact.
-    pub(super) fn is_large(&mut self, points: &Points<'_>) -> bool {
-        let Self { start, members, levels, depth, .. } = self;
+    pub(super) fn is_large(&mut self, grid: &Grid, points: &Points<'_>) -> bool {
+        let Self { sorter, start, levels, depth, .. } = self;
         if *depth == 0 {
             return false;
         }
         levels[0].moves.par_chunks_mut(CHUNK).enumerate().for_each(|(c, moves)| {
             for (own, range) in moves.iter_mut().zip(start[c * CHUNK..].windows(2)) {
                 *own = Bounds::NOTHING;
-                for Member { at, id, .. } in &members[range[0] as usize..range[1] as usize] {
+                let cells = &sorter.items[range[0] as usize..range[1] as usize];
+                for Member { at, id, .. } in cells.iter().flat_map(|cell| grid.members(cell.id)) {
                     let i = *id as usize;
                     own.add([points.x[i] - at[0], points.y[i] - at[1], points.z[i] - at[2]]);
                 }

@@ -128,15 +128,14 @@ impl Slot {
         keep: &impl Fn(u32, u32) -> bool,
     ) {
         let members = range(&grid.all, &grid.start, [cell, cell + 1]);
-        let exposed = (grid.start_exposed[cell + 1] - grid.start_exposed[cell]) as usize;
-        let (exposed, hidden) = members.split_at(exposed);
+        let (exposed, hidden) = members.split_at(grid.exposed(cell).len());
         let frame = Frame { origin: members[0].at, scale: grid.scale };
         let own = if windows.own { members } else { &[] };
         let others = windows.cells.iter().map(|&cells| range(&grid.all, &grid.start, cells));
         let all = std::iter::once(own).chain(others);
         self.scan_all(exposed, &all, (&frame, windows.own), keep);
-        let table = (&grid.exposed, &grid.start_exposed);
-        let others = windows.cells.iter().map(|&cells| range(table.0, table.1, cells));
+        let cells = windows.cells.iter().flat_map(|&[from, to]| from..to);
+        let others = cells.map(|cell| grid.exposed(cell));
         self.scan_all(hidden, &others, (&frame, false), keep);
     }
 

@@ -11,8 +11,9 @@ const VALUES: usize = 1 << WIDEST;
 /// Most digits of a key.
 const DIGITS: usize = u64::BITS.div_ceil(WIDEST) as usize;
 
-/// A key, and what it is the key of.
+/// A key, and what it is the key of. There are many: no gap behind the index.
 #[derive(Debug, Clone, Copy, Default)]
+#[repr(C, packed(4))]
 pub(super) struct Item {
     pub(super) key: u64,
     pub(super) id: u32,
@@ -79,9 +80,9 @@ fn digit(key: u64, shift: u32, width: u32) -> usize {
     (key >> shift) as usize & ((1 << width) - 1) & (VALUES - 1)
 }
 
-/// Length to which a buffer grows that has to hold `n`: a quarter more, so that it seldom grows.
+/// Length to which a buffer grows that has to hold `n`: an eighth more, so that it seldom grows.
 pub(super) fn roomy<T>(buffer: &mut Vec<T>, n: usize) {
     if buffer.capacity() < n {
-        buffer.reserve(n + n / 4 - buffer.len());
+        buffer.reserve(n + n / 8 - buffer.len());
     }
 }

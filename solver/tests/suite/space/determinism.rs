@@ -1,6 +1,7 @@
-//! The same bits: any number of threads, with and without what is at rest.
+//! The same bits: any number of threads, any instructions, with and without what is at rest.
 
 use whipple_solver::space::Scene;
+use whipple_solver::space::dispatch::Instructions;
 use whipple_solver::space::scene::{Body, Failure, Side};
 
 use super::scenes::{bits, block, march, mirror, rod, scene, start, steel};
@@ -21,6 +22,19 @@ fn any_number_of_threads() {
     for threads in [2, 8] {
         assert!(on_threads(&scene, threads, 60) == one, "{threads} threads");
     }
+}
+
+#[test]
+fn any_instructions() {
+    let scene = rod(5, 40, [30, 5, 20]);
+    let with = |instructions| {
+        let mut simulation = start(&scene);
+        simulation.compute_with(instructions);
+        march(&mut simulation, 60);
+        bits(&simulation)
+    };
+    let all: Vec<_> = Instructions::available().map(with).collect();
+    assert!(all.iter().all(|bits| *bits == all[0]));
 }
 
 /// Steps both ways; the counts of particle updates.
