@@ -12,7 +12,7 @@ use crate::document;
 use crate::files::{ensure_writable_dir, write_atomic};
 use crate::plots;
 use crate::record::{Outcome, Records};
-use crate::report;
+use crate::report::{self, Drawing};
 use crate::suite::{records_folder, run_suite, verdicts};
 
 /// Runs, judges, reports.
@@ -86,7 +86,7 @@ fn compare(
     Ok(())
 }
 
-type Made = (report::Report, BTreeMap<String, String>, Vec<Verdict>);
+type Made = (report::Report, BTreeMap<String, Drawing>, Vec<Verdict>);
 
 /// The report of a folder of records, in memory.
 fn made(folder: &Path) -> Result<Made, Failure> {
@@ -95,7 +95,8 @@ fn made(folder: &Path) -> Result<Made, Failure> {
     let (page, figures) = document::compose(&records, &verdicts);
     let mut drawings = BTreeMap::new();
     for figure in &figures {
-        drawings.insert(figure.id.clone(), plots::render_svg(figure).map_err(Failure::usage)?);
+        let svg = plots::render_svg(figure).map_err(Failure::usage)?;
+        drawings.insert(figure.id.clone(), Drawing::Chart(svg));
     }
     Ok((page, drawings, verdicts))
 }
