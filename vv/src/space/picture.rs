@@ -7,7 +7,7 @@ use whipple_solver::units::{Dimension, Units};
 use super::frames::places;
 use crate::paint::{
     Camera, ColourMap, Colouring, Field, Hexahedron, Length, Mark, Model, PaintError, Picture,
-    Plane, Sphere, paint,
+    Plane, Sphere, Theme, paint,
 };
 
 /// What decides the colours.
@@ -103,11 +103,15 @@ fn class(body: usize) -> u8 {
     body.min(usize::from(u8::MAX)) as u8
 }
 
-/// Paints the present state as a PNG file.
+/// Paints the present state as PNG files, for light and for dark pages.
 ///
 /// # Errors
 /// As [`paint`].
-pub fn shoot(simulation: &Simulation, scene: &Scene, shot: &Shot) -> Result<Vec<u8>, PaintError> {
+pub fn shoot(
+    simulation: &Simulation,
+    scene: &Scene,
+    shot: &Shot,
+) -> Result<[Vec<u8>; 2], PaintError> {
     let colouring = match shot.shown {
         Shown::Body => Colouring::Classes(scene.bodies.iter().map(|b| b.name.clone()).collect()),
         Shown::Temperature(range) => Colouring::Field(Field {
@@ -118,14 +122,16 @@ pub fn shoot(simulation: &Simulation, scene: &Scene, shot: &Shot) -> Result<Vec<
         }),
     };
     let unit = scene.units.label(Dimension::Length).to_owned();
-    let picture = Picture {
+    let light = Picture {
         section: shot.section,
         title: shot.title.clone(),
         time: time(simulation.time(), scene.units),
         length: Length { unit, factor: 1.0 },
         ..Picture::new(shot.camera, colouring)
     };
-    paint(&model(simulation), &picture)
+    let dark = Picture { theme: Theme::Dark, ..light.clone() };
+    let model = model(simulation);
+    Ok([paint(&model, &light)?, paint(&model, &dark)?])
 }
 
 /// The time of a state, as the picture says it.
