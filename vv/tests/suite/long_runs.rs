@@ -7,29 +7,20 @@ use std::path::Path;
 use serde_json::Value;
 use whipple_vv::checkpoint::{CheckpointError, ElementType, Reader};
 
-use crate::common::{Said, said, whipple};
+use crate::common::{SHORT_ROD, Said, said, whipple};
 
-/// A rod and a plate cut short: some thousand elements, some sixty steps in a microsecond.
-const ROD: [&str; 12] = [
-    "run",
-    "long-rod",
-    "--set",
-    "bodies.0.shape.cylinder.length=1.5",
-    "--set",
-    "bodies.0.cells=[5,5,15]",
-    "--set",
-    "bodies.0.centre=[-1.6134,-0.6815,0.0]",
-    "--set",
-    "bodies.1.shape.box.size=[2.0,0.5,1.0]",
-    "--set",
-    "bodies.1.cells=[20,5,10]",
-];
+/// Arguments of a run of the short rod, some sixty steps in a microsecond.
+fn short_rod() -> Vec<&'static str> {
+    let sets = SHORT_ROD.into_iter().flat_map(|set| ["--set", set]);
+    ["run", "long-rod"].into_iter().chain(sets).collect()
+}
+
 /// A variant that takes no pictures, which take longer than a short run.
 const PLAIN: [&str; 2] = ["--variant", "viscosity-1"];
 
 /// Runs the short rod in a folder, without pictures.
 fn rod(folder: &Path, args: &[&str]) -> Said {
-    said(folder, &[&ROD[..], &PLAIN, args].concat())
+    said(folder, &[&short_rod()[..], &PLAIN, args].concat())
 }
 
 /// A run must end well.
@@ -145,7 +136,7 @@ fn go_on(folder: &Path, stopped: &Said) {
 fn run_that_goes_on_is_the_run() {
     let folder = tempfile::tempdir().expect("a folder");
     let at = folder.path();
-    let run = |args: &[&str]| assert_well(&said(at, &[&ROD[..], args].concat()));
+    let run = |args: &[&str]| assert_well(&said(at, &[&short_rod()[..], args].concat()));
     run(&["--stop", "6us", "--vtu", "1.7us", "--out", "whole"]);
     run(&["--stop", "3", "--vtu", "1700ns", "--out", "parts"]);
     let rest = ["--vtu", "1.7us", "--threads", "2", "--resume", "parts/checkpoint-000001.whp"];
@@ -177,7 +168,7 @@ fn frames_do_not_move_the_run() {
 fn time_on_the_clock_ends_a_run_that_goes_on() {
     let folder = tempfile::tempdir().expect("a folder");
     let at = folder.path();
-    let case = [&ROD[..], &PLAIN].concat();
+    let case = [&short_rod()[..], &PLAIN].concat();
     for case in [case.as_slice(), &["run", "planar-impact", "--n", "16"]] {
         let run = |more: &[&str]| said(at, &[case, &["--stop", "2"], more].concat());
         assert_well(&run(&["--out", "whole"]));
@@ -206,7 +197,7 @@ fn time_on_the_clock_ends_a_run_that_goes_on() {
 fn interrupt_leaves_a_run_that_goes_on() {
     let folder = tempfile::tempdir().expect("a folder");
     let at = folder.path();
-    let args = [&ROD[..], &PLAIN, &["--out", "out"]].concat();
+    let args = [&short_rod()[..], &PLAIN, &["--out", "out"]].concat();
     let mut child = whipple(&args)
         .current_dir(at)
         .stdout(std::process::Stdio::piped())
@@ -269,7 +260,7 @@ fn runs_that_cannot_go_on_are_refused() {
     fs::write(at.join("text.whp"), "state").expect("a file");
     fs::write(at.join("whole.whp"), file).expect("a file");
     let mut text = String::new();
-    let short = [&ROD[..], &PLAIN].concat();
+    let short = [&short_rod()[..], &PLAIN].concat();
     for (case, args) in [
         (short.as_slice(), &["--out", "new", "--resume", "cut.whp"][..]),
         (&short, &["--out", "new", "--resume", "altered.whp"]),
@@ -305,7 +296,7 @@ fn runs_that_cannot_go_on_are_refused() {
             let cut = lines[0].rfind(", wanted").expect("what is wanted");
             lines[0].truncate(cut);
         }
-        let case = if case.len() > ROD.len() { "run SHORT-ROD".into() } else { case.join(" ") };
+        let case = if case == short { "run SHORT-ROD".into() } else { case.join(" ") };
         text += &format!("$ whipple {case} {}\n{}\n\n", args.join(" "), lines.join("\n"));
     }
     assert!(!at.join("new").exists(), "nothing is written");
