@@ -166,7 +166,7 @@ fn pictures_are_kept_and_checked() {
     for (name, bytes) in files {
         assert_eq!(read(&format!("figures/{name}")), bytes);
     }
-    let [page, text] = ["index.html", "report.md"].map(|name| read(name));
+    let [page, text] = ["index.html", "report.md"].map(read);
     let [page, text] = [page, text].map(|bytes| String::from_utf8(bytes).expect("text"));
     assert!(page.contains("A hot chain.") && page.contains("data:image/png;base64,"));
     assert!(text.contains("![A hot chain.](figures/chain.png)"));

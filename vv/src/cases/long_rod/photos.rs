@@ -11,8 +11,8 @@ use crate::space::picture::{
 /// Table 4.
 const TEMPERATURES: (f64, f64) = (300.0, 1723.0);
 
-/// Share of the particles beyond either end of each axis that may lie outside a picture.
-const OUTSIDE: f64 = 0.001;
+/// Share of the loose particles beyond either end of each axis that may lie outside a picture.
+const OUTSIDE: f64 = 0.01;
 
 /// A picture of the state at some time.
 struct Wish {
