@@ -139,7 +139,7 @@ impl<'a> SpaceDriver<'a> {
     fn drop_last_look(&mut self) -> Result<(), RunError> {
         let left = &self.measured.looks[self.taken..self.kept];
         match left.iter().find(|look| look.time < self.solver.time()) {
-            Some(look) => Err(other_looks(look.time, "no look at this time").into()),
+            Some(look) => Err(other_looks(at(look.time), "no look at this time").into()),
             None => {
                 self.measured.looks.drain(self.taken..self.kept);
                 self.kept = self.taken;
@@ -161,13 +161,13 @@ impl<'a> SpaceDriver<'a> {
         if self.taken < self.kept {
             let look = &self.measured.looks[self.taken];
             if look.time.to_bits() != self.now.to_bits() {
-                return Err(other_looks(look.time, &format!("a look at {:?}", self.now)).into());
+                return Err(other_looks(at(look.time), &at(self.now)).into());
             }
             self.taken += 1;
             return Ok(look.values.clone());
         }
-        if let Some(state) = &self.ahead {
-            return Err(other_looks(state.time(), &format!("a look at {:?}", self.now)).into());
+        if self.ahead.is_some() {
+            return Err(other_looks("no more looks".to_owned(), &at(self.now)).into());
         }
         let balance = self.weigh();
         let values = find(&self.solver, &balance);
@@ -255,8 +255,13 @@ impl<'a> SpaceDriver<'a> {
     }
 }
 
+/// A look, in words.
+fn at(time: f64) -> String {
+    format!("a look at {time:?}")
+}
+
 /// A checkpoint of a run that looked at other times.
-fn other_looks(found: f64, wanted: &str) -> ResumeError {
+fn other_looks(found: String, wanted: &str) -> ResumeError {
     ResumeError::Looks { found, wanted: wanted.to_owned() }
 }
 

@@ -19,10 +19,10 @@ pub enum ResumeError {
     #[error(transparent)]
     State(#[from] RestartError),
     /// The run looked at other times than this one does.
-    #[error("section `measured.times`: a look at {found:?}, wanted {wanted}")]
+    #[error("section `measured.times`: {found}, wanted {wanted}")]
     Looks {
-        /// Time of the look that stands there.
-        found: f64,
+        /// What stands there.
+        found: String,
         /// What should stand there.
         wanted: String,
     },

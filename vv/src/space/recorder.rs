@@ -180,3 +180,19 @@ fn after(time: f64, every: f64) -> f64 {
     let next = [whole, whole + 1.0].map(|k| k * every).into_iter().find(|next| *next > time);
     next.unwrap_or((whole + 2.0) * every)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::after;
+
+    #[test]
+    fn frames_are_due_at_every_multiple() {
+        for every in [0.1, 0.3, 1.7, 5.0] {
+            for k in 0..1000 {
+                let (due, next) = (f64::from(k) * every, f64::from(k + 1) * every);
+                assert_eq!(after(due, every), next, "{k} {every}");
+                assert_eq!(after(next.next_down(), every), next, "{k} {every}");
+            }
+        }
+    }
+}

@@ -48,9 +48,13 @@ pub fn record(key: &RunKey) -> RunRecord {
 pub fn beginning(key: &RunKey) -> RunRecord {
     once(&BEGINNINGS, key, |mut scene| {
         scene.set_stop_time(0.1 * scene.stop_time());
-        let sets = if key.case == "long-rod" { &SHORT_ROD[..] } else { &[] };
-        apply(scene, &sets.iter().map(ToString::to_string).collect::<Vec<_>>()).expect("overrides")
+        if key.case == "long-rod" { cut_short(scene) } else { scene }
     })
+}
+
+/// The scene of `long-rod` with rod and plate cut short.
+pub fn cut_short(scene: AnyScene) -> AnyScene {
+    apply(scene, &SHORT_ROD.map(str::to_owned)).expect("overrides that fit")
 }
 
 fn once(runs: &Runs, key: &RunKey, change: impl FnOnce(AnyScene) -> AnyScene) -> RunRecord {

@@ -5,9 +5,15 @@ use std::fs;
 use std::path::Path;
 
 use serde_json::Value;
+use whipple_solver::method::Preset;
+use whipple_solver::space::Simulation;
 use whipple_vv::checkpoint::{CheckpointError, ElementType, Reader};
+use whipple_vv::run::{Request, Silent, SpaceOptions, run_with};
+use whipple_vv::space::checkpoint::Halted;
+use whipple_vv::space::measured::{Look, Measured};
+use whipple_vv::suite::scene_of;
 
-use crate::common::{SHORT_ROD, Said, said, whipple};
+use crate::common::{SHORT_ROD, Said, case, cut_short, key, said, whipple};
 
 /// Arguments of a run of the short rod, some sixty steps in a microsecond.
 fn short_rod() -> Vec<&'static str> {
@@ -244,6 +250,43 @@ fn failure_leaves_the_last_good_state() {
     assert_eq!(again.code, Some(3));
     let first = |said: &Said| errors(said).split(';').next().map(str::to_owned);
     assert_eq!(first(&again), first(&failed));
+}
+
+/// A run that ended between two looks goes on to a later end, without its last look.
+#[test]
+fn finished_run_goes_on_from_any_end() {
+    let folder = tempfile::tempdir().expect("a folder");
+    assert_well(&rod(folder.path(), &["--stop", "1.5", "--out", "out"]));
+    let rest = ["--stop", "3", "--out", "out", "--resume", "out/checkpoint-000001.whp"];
+    assert_well(&rod(folder.path(), &rest));
+    let times = &record(&folder.path().join("out"))["history"]["time"];
+    assert_eq!(*times, serde_json::json!([0.0, 1.0, 2.0, 3.0]));
+}
+
+/// A checkpoint whose looks are not those that the case takes is refused.
+#[test]
+fn other_looks_are_refused() {
+    let key = key("long-rod", Preset::Default, 5).variant(PLAIN[1]);
+    let case = case("long-rod");
+    let scene = cut_short(scene_of(case, &key).expect("a scene"));
+    let solid = scene.space().expect("a scene in space");
+    for (times, wanted) in [
+        (&[0.0, 0.7][..], "a look at 0.7, wanted a look at 1.0"),
+        (&[0.0], "no more looks, wanted a look at 1.0"),
+        (&[0.0, 1.0, 1.2], "a look at 1.2, wanted no look at this time"),
+    ] {
+        let mut simulation = Simulation::new(solid).expect("a valid scene");
+        simulation.advance_to(1.5).expect("it runs");
+        let look = |&time: &f64| Look { time, values: vec![0.0; 13] };
+        let looks = times.iter().map(look).collect();
+        let measured = Measured { looks, ..Measured::default() };
+        let options =
+            SpaceOptions { from: Some(Halted { simulation, measured }), ..SpaceOptions::default() };
+        let (scene, command) = (Some(scene.clone()), String::new());
+        let request = Request { key: key.clone(), scene, threads: 1, command };
+        let refused = run_with(case, request, options, &Silent).err().expect("other looks");
+        assert_eq!(refused.to_string(), format!("section `measured.times`: {wanted}"));
+    }
 }
 
 /// What is said to checkpoints and options that a run cannot use; nothing is written then.
