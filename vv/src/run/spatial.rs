@@ -50,6 +50,8 @@ pub struct SpaceDriver<'a> {
     /// Looks that were kept, and how many of them have been taken again.
     kept: usize,
     taken: usize,
+    /// The run has begun, or goes on.
+    begun: bool,
     /// The case read the present state without [`SpaceDriver::look`].
     read: Cell<bool>,
     /// It has done so before the present time: a checkpoint would not hold what it found.
@@ -60,7 +62,7 @@ impl<'a> SpaceDriver<'a> {
     /// A driver at t = 0, or at what the case measured before the state that it goes on from.
     ///
     /// # Errors
-    /// An invalid scene, or output that cannot be written.
+    /// An invalid scene.
     fn new(
         scene: &Scene,
         options: SpaceOptions,
@@ -71,7 +73,7 @@ impl<'a> SpaceDriver<'a> {
             Some(Halted { simulation, measured }) => (Some(simulation), measured),
             None => (None, Measured::default()),
         };
-        let mut driver = Self {
+        Ok(Self {
             solver: Simulation::new(scene)?,
             stop: scene.stop_time,
             monitor,
@@ -82,13 +84,21 @@ impl<'a> SpaceDriver<'a> {
             now: 0.0,
             ahead,
             taken: 0,
+            begun: false,
             read: Cell::new(false),
             unkept: false,
-        };
-        if let Some(recorder) = &mut driver.recorder {
-            recorder.follow(driver.ahead.as_ref().unwrap_or(&driver.solver))?;
-        }
-        Ok(driver)
+        })
+    }
+
+    /// Changes the simulation before its first step: a state that no scene states.
+    ///
+    /// # Errors
+    /// Those of the change.
+    pub fn prepare(
+        &mut self,
+        change: impl FnOnce(&mut Simulation) -> Result<(), RunError>,
+    ) -> Result<(), RunError> {
+        change(&mut self.solver)
     }
 
     /// Steps to `time`, on the clock.
@@ -104,6 +114,9 @@ impl<'a> SpaceDriver<'a> {
         if let Some(state) = self.ahead.take() {
             self.solver = state;
         }
+        if !std::mem::replace(&mut self.begun, true) {
+            self.follow()?;
+        }
         if time > self.solver.time() {
             self.drop_last_look()?;
         }
@@ -112,15 +125,18 @@ impl<'a> SpaceDriver<'a> {
             let stepped = self.stretch(time);
             self.measured.cpu_seconds += start.elapsed().as_secs_f64();
             stepped?;
-            if let Some(recorder) = &mut self.recorder {
-                recorder.follow(&self.solver)?;
-            }
+            self.follow()?;
             let done = self.solver.counters().particle_steps;
             if !self.monitor.tick(self.solver.time(), self.stop, done) {
                 return Err(RunError::Interrupted { checkpoint: None });
             }
         }
         Ok(())
+    }
+
+    /// Takes down the present state.
+    fn follow(&mut self) -> Result<(), OutputError> {
+        self.recorder.as_mut().map_or(Ok(()), |recorder| recorder.follow(&self.solver))
     }
 
     /// Steps until there is something else to do.
