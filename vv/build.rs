@@ -4,13 +4,14 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// Sources whose change makes a record stale.
-const WATCHED: [&str; 7] = [
+const WATCHED: [&str; 8] = [
     "../solver/src",
     "src/cases",
     "src/exact",
     "src/godunov",
     "src/godunov.rs",
     "src/norms.rs",
+    "src/run",
     "src/run.rs",
 ];
 

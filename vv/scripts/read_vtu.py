@@ -1,8 +1,11 @@
 #!/usr/bin/env python3
-"""Check a VTU/PVD collection against a table, with VTK itself as the reader.
+"""Read a VTU/PVD collection with VTK itself, and check it against a table or the ledger of its run.
 
     python3 -m venv venv && venv/bin/pip install pyvista
-    venv/bin/python read_vtu.py RUN.pvd EXPECTED.csv [--tolerance 1e-12]
+    venv/bin/python read_vtu.py RUN.pvd [EXPECTED.csv] [--ledger LEDGER.csv] [--tolerance 1e-12]
+
+Without a table all states must be readable. With the ledger of the run each state must have a row of its
+time, the particles the mass of that row, and the elements its number of dead ones.
 
 The table has the columns
 
@@ -83,6 +86,23 @@ def check_field(row, values, tolerance):
             yield f"{figure} is {found!r}, wanted {wanted!r}"
 
 
+def check_ledger(rows, grid, time, tolerance):
+    """Differences between a state and the row of its time."""
+    if time not in rows:
+        yield "no row of its time in the ledger"
+        return
+    row = rows[time]
+    if "mass" in grid.point_data:
+        found, wanted = float(grid.point_data["mass"].sum()), float(row["total.mass"])
+        # The order of the sums differs.
+        if not abs(found - wanted) <= max(tolerance, 1e-12) * wanted:
+            yield f"mass is {found!r}, in the ledger {wanted!r}"
+    if "live" in grid.cell_data:
+        found, wanted = int((grid.cell_data["live"] == 0).sum()), int(row["dead_elements"])
+        if found != wanted:
+            yield f"has {found} dead elements, in the ledger {wanted}"
+
+
 def check_state(rows, grid, time, tolerance):
     """Differences between the rows of one state and the state."""
     stamp = grid.field_data.get("TimeValue")
@@ -114,14 +134,19 @@ def check_state(rows, grid, time, tolerance):
 
 
 def main():
-    parser = argparse.ArgumentParser(description="Check a VTU/PVD collection against a table.")
+    parser = argparse.ArgumentParser(description="Read a VTU/PVD collection with VTK.")
     parser.add_argument("collection", type=Path, help="the .pvd file")
-    parser.add_argument("table", type=Path, help="the .csv file")
+    parser.add_argument("table", type=Path, nargs="?", help="what it must hold, as .csv file")
+    parser.add_argument("--ledger", type=Path, help="the ledger.csv of the run")
     parser.add_argument("--tolerance", type=float, default=1e-12, help="relative tolerance")
     options = parser.parse_args()
     try:
-        wanted = read_table(options.table)
         states, times = read_collection(options.collection)
+        wanted = read_table(options.table) if options.table else {key: None for key in states}
+        ledger = None
+        if options.ledger:
+            with open(options.ledger, newline="", encoding="utf-8") as file:
+                ledger = {float(row["time"]): row for row in csv.DictReader(file)}
     except (OSError, KeyError, ValueError, RuntimeError, ElementTree.ParseError) as error:
         print(f"cannot read: {error}", file=sys.stderr)
         return 2
@@ -134,7 +159,11 @@ def main():
         if key not in states or key not in wanted:
             differences = ["missing" if key in wanted else "not in the table"]
         else:
-            differences = list(check_state(wanted[key], states[key], time, options.tolerance))
+            differences = []
+            if wanted[key] is not None:
+                differences += check_state(wanted[key], states[key], time, options.tolerance)
+            if ledger is not None:
+                differences += check_ledger(ledger, states[key], time, options.tolerance)
         failures += len(differences)
         for difference in differences:
             print(f"FAIL t = {time!r}, {part}: {difference}")

@@ -2,17 +2,20 @@
 
 use std::io::Write;
 use std::path::PathBuf;
+use std::time::Duration;
 
 use clap::{Parser, Subcommand, ValueEnum};
 use whipple_solver::method::{Density, Preset};
 
 use crate::cases::Level;
+use times::SimulatedTime;
 
 mod bench;
 mod list;
 mod progress;
 mod reports;
 mod run;
+mod times;
 
 /// Exit code when a claim failed.
 const CLAIM_FAILED: u8 = 1;
@@ -37,6 +40,7 @@ Examples:
   whipple vv noh --level quick        one case, small sizes
   whipple run noh --preset paper --n 400 --json
   whipple run sod --set heating=printed --out out/sod
+  whipple run long-rod --vtu 5us --max-wall 30min --out out/rod
 
 Exit codes: 0 fine, 1 a claim failed, 2 wrong use or input, 3 numerical failure, 130 interrupted.";
 
@@ -77,9 +81,10 @@ struct RunArgs {
     /// Variant of the case
     #[arg(long, default_value = "")]
     variant: String,
-    /// Stop at this time, in the units of the scene, instead of the case's own
+    /// Stop at this time instead of the case's own: a number in the units of the scene, or with a
+    /// unit (20us, 0.5ms)
     #[arg(long, value_name = "TIME", conflicts_with = "godunov")]
-    stop: Option<f64>,
+    stop: Option<SimulatedTime>,
     /// Change one value of the scene, such as heating=pair (repeatable)
     #[arg(long = "set", value_name = "KEY=VALUE")]
     sets: Vec<String>,
@@ -89,12 +94,37 @@ struct RunArgs {
     /// Threads
     #[arg(long, default_value_t = 1)]
     threads: usize,
-    /// Folder for the record, the scene and the fields as CSV
+    /// Folder for the record, the scene and the fields as CSV; in three dimensions also for the
+    /// ledger, pictures, frames and checkpoints
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// In three dimensions: write the state as VTU files every so often, such as 5us; `run.pvd`
+    /// lists them
+    #[arg(long, value_name = "EVERY", requires = "out", conflicts_with = "godunov")]
+    vtu: Option<SimulatedTime>,
+    /// In three dimensions: go on from this checkpoint of the same case and options; the bits are
+    /// those of a run that was never stopped
+    #[arg(long, value_name = "FILE", conflicts_with = "godunov")]
+    resume: Option<PathBuf>,
+    /// In three dimensions: after this time on the clock, such as 30s or 2min, write a checkpoint
+    /// and stop with exit code 130, as an interrupt (Ctrl-C) does
+    #[arg(
+        long,
+        value_name = "TIME",
+        requires = "out",
+        conflicts_with = "godunov",
+        value_parser = wall_time
+    )]
+    max_wall: Option<Duration>,
     /// Print one JSON object on standard output
     #[arg(long)]
     json: bool,
+}
+
+/// A time on the clock.
+fn wall_time(text: &str) -> Result<Duration, String> {
+    humantime::parse_duration(text)
+        .map_err(|_| "wanted a time such as 30s, 2min or 1h 30min".into())
 }
 
 #[derive(Debug, clap::Args)]
@@ -190,9 +220,14 @@ impl From<crate::run::RunError> for Failure {
     fn from(error: crate::run::RunError) -> Self {
         use crate::run::RunError as E;
         let code = match error {
-            E::Interrupted => INTERRUPTED,
+            E::Interrupted { .. } => INTERRUPTED,
             E::Step(_) | E::Norm(_) | E::Godunov(_) => NUMERICAL_FAILURE,
-            E::Scene(_) | E::Reference(_) | E::NotThere { .. } => WRONG_USE,
+            E::Scene(_)
+            | E::Reference(_)
+            | E::NotThere { .. }
+            | E::Picture { .. }
+            | E::Resume(_)
+            | E::Output(_) => WRONG_USE,
         };
         Self { code, message: error.to_string() }
     }

@@ -13,6 +13,7 @@ pub mod godunov;
 pub mod norms;
 pub mod overrides;
 pub mod paint;
+pub mod pictures;
 pub mod plots;
 pub mod record;
 pub mod references;

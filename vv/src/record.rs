@@ -14,6 +14,7 @@ use whipple_solver::space::ledger::Balance;
 use whipple_solver::timestep::Decided;
 
 use crate::scene::AnyScene;
+use crate::space::measured::Photo;
 
 /// Version of the record format. A reader refuses any other.
 pub const SCHEMA: u32 = 1;
@@ -162,8 +163,39 @@ pub struct RunRecord {
     pub profile: Option<Series>,
     /// Histories, where a figure needs them.
     pub history: Option<Series>,
+    /// Pictures of states, for the report.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub pictures: Vec<PictureRecord>,
     /// Where the numbers come from.
     pub provenance: Provenance,
+}
+
+/// Pictures cannot be drawn again from a record: their files stand beside the records, and the record
+/// says which they are.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct PictureRecord {
+    /// Stem of its files.
+    pub id: String,
+    /// Its caption in the report.
+    pub caption: String,
+    /// BLAKE3 of the file for light pages, in hexadecimal.
+    pub light: String,
+    /// BLAKE3 of the file for dark pages.
+    pub dark: String,
+}
+
+impl PictureRecord {
+    /// What a record says of a picture.
+    #[must_use]
+    pub fn of(photo: &Photo) -> Self {
+        let hash = |file: &[u8]| blake3::hash(file).to_hex().to_string();
+        Self {
+            id: photo.id.clone(),
+            caption: photo.caption.clone(),
+            light: hash(&photo.light),
+            dark: hash(&photo.dark),
+        }
+    }
 }
 
 /// What a run in three dimensions leaves behind besides.

@@ -1,6 +1,9 @@
 //! Running a case: the clock, the progress line, and the record.
 
+mod spatial;
+
 use std::collections::BTreeMap;
+use std::path::PathBuf;
 use std::time::Duration;
 
 use cpu_time::ProcessTime;
@@ -8,20 +11,21 @@ use whipple_solver::Solver;
 use whipple_solver::error::{SceneError, StepError};
 use whipple_solver::output::Snapshot;
 use whipple_solver::scene::Scene;
-use whipple_solver::space;
-use whipple_solver::space::ledger::Balance;
 
 use crate::cases::Case;
 use crate::godunov::GodunovError;
 use crate::norms::NormError;
-use crate::record::{Outcome, Provenance, RunKey, RunRecord, SCHEMA, Scheme, Series, SpaceRecord};
+use crate::paint::PaintError;
+use crate::record::{Outcome, Provenance, RunKey, RunRecord, SCHEMA, Scheme, Series};
 use crate::scene::AnyScene;
+use crate::space::checkpoint::ResumeError;
+use crate::space::measured::Photo;
+use crate::space::recorder::OutputError;
+
+pub use spatial::{SpaceDriver, SpaceOptions};
 
 /// Steps between two looks at the clock and the interrupt flag.
 const STEPS_PER_LOOK: u64 = 256;
-
-/// The same in three dimensions, where a step takes milliseconds.
-const STEPS_PER_SPACE_LOOK: u64 = 16;
 
 /// Why a run gave no record.
 #[derive(Debug, thiserror::Error)]
@@ -51,7 +55,24 @@ pub enum RunError {
     },
     /// The user stopped the run.
     #[error("interrupted")]
-    Interrupted,
+    Interrupted {
+        /// What it goes on from, if that was kept.
+        checkpoint: Option<PathBuf>,
+    },
+    /// A picture that cannot be painted.
+    #[error("picture `{id}`: {source}")]
+    Picture {
+        /// Its name.
+        id: String,
+        /// Why.
+        source: PaintError,
+    },
+    /// A checkpoint that the run cannot go on from.
+    #[error(transparent)]
+    Resume(#[from] ResumeError),
+    /// What the run should leave could not be written.
+    #[error(transparent)]
+    Output(#[from] OutputError),
 }
 
 impl From<crate::exact::InputError> for RunError {
@@ -64,6 +85,9 @@ impl From<crate::exact::InputError> for RunError {
 pub trait Monitor: Sync {
     /// Told now and then how far the run is; returns false to stop it.
     fn tick(&self, time: f64, stop: f64, particle_steps: u64) -> bool;
+
+    /// Told the error of the energy balance whenever a run in three dimensions looks at it.
+    fn drift(&self, _energy: f64) {}
 }
 
 /// Watches nothing.
@@ -162,7 +186,7 @@ impl<'a> Driver<'a> {
             if done.steps.is_multiple_of(STEPS_PER_LOOK)
                 && !self.monitor.tick(self.solver.time(), self.stop, done.particle_steps)
             {
-                return Err(RunError::Interrupted);
+                return Err(RunError::Interrupted { checkpoint: None });
             }
         }
         Ok(())
@@ -178,84 +202,6 @@ impl<'a> Driver<'a> {
     #[must_use]
     pub fn monitor(&self) -> &'a dyn Monitor {
         self.monitor
-    }
-}
-
-/// A solver in three dimensions with a clock.
-pub struct SpaceDriver<'a> {
-    solver: space::Simulation,
-    stop: f64,
-    monitor: &'a dyn Monitor,
-    cpu: Duration,
-    worst: Worst,
-}
-
-/// Largest errors of the balances that were looked at.
-#[derive(Debug, Clone, Copy, Default)]
-struct Worst {
-    energy: f64,
-    momentum: f64,
-    angular: f64,
-}
-
-impl<'a> SpaceDriver<'a> {
-    /// A driver at t = 0.
-    ///
-    /// # Errors
-    /// An invalid scene.
-    pub fn new(scene: &space::Scene, monitor: &'a dyn Monitor) -> Result<Self, SceneError> {
-        Ok(Self {
-            solver: space::Simulation::new(scene)?,
-            stop: scene.stop_time,
-            monitor,
-            cpu: Duration::ZERO,
-            worst: Worst::default(),
-        })
-    }
-
-    /// Steps to `time`, on the clock.
-    ///
-    /// # Errors
-    /// A numerical failure, or the user's interrupt.
-    pub fn advance_to(&mut self, time: f64) -> Result<(), RunError> {
-        let start = ProcessTime::now();
-        let result = self.steps_to(time);
-        self.cpu += start.elapsed();
-        result
-    }
-
-    fn steps_to(&mut self, time: f64) -> Result<(), RunError> {
-        while self.solver.time() < time {
-            self.solver.step(time)?;
-            let done = self.solver.counters();
-            if done.steps.is_multiple_of(STEPS_PER_SPACE_LOOK)
-                && !self.monitor.tick(self.solver.time(), self.stop, done.particle_steps)
-            {
-                return Err(RunError::Interrupted);
-            }
-        }
-        Ok(())
-    }
-
-    /// The balance now, off the clock; the record keeps the largest errors of those looked at.
-    pub fn balance(&mut self) -> Balance {
-        let balance = self.solver.balance();
-        // `max` would pass over NaN.
-        let keep = |worst: &mut f64, error: f64| {
-            if error > *worst || error.is_nan() {
-                *worst = error;
-            }
-        };
-        keep(&mut self.worst.energy, balance.energy_drift());
-        keep(&mut self.worst.momentum, balance.momentum_drift());
-        keep(&mut self.worst.angular, balance.angular_drift());
-        balance
-    }
-
-    /// The solver.
-    #[must_use]
-    pub fn solver(&self) -> &space::Simulation {
-        &self.solver
     }
 }
 
@@ -278,6 +224,17 @@ pub struct Run {
     pub record: RunRecord,
     /// The failure.
     pub failure: Option<StepError>,
+    /// Where a run in three dimensions that has a folder may be continued: at its end, or at the last
+    /// state before a failure.
+    pub checkpoint: Option<PathBuf>,
+    /// Pictures, if they were wanted; the record has their hashes.
+    pub photos: Vec<Photo>,
+}
+
+impl Run {
+    fn new(record: RunRecord, failure: Option<StepError>) -> Self {
+        Self { record, failure, checkpoint: None, photos: Vec::new() }
+    }
 }
 
 /// Runs a case. A numerical failure is a result: it stands in the record.
@@ -285,8 +242,31 @@ pub struct Run {
 /// # Errors
 /// Whatever else prevents a record.
 pub fn run(case: &dyn Case, request: Request, monitor: &dyn Monitor) -> Result<Run, RunError> {
+    run_with(case, request, SpaceOptions::default(), monitor)
+}
+
+/// [`run`], with what only runs in three dimensions can do.
+///
+/// # Errors
+/// As [`run`]; and what cannot be written, or not be continued.
+pub fn run_with(
+    case: &dyn Case,
+    request: Request,
+    options: SpaceOptions,
+    monitor: &dyn Monitor,
+) -> Result<Run, RunError> {
     let Request { key, scene, threads, command } = request;
-    let mut record = RunRecord {
+    let record = blank(key, threads, command);
+    match scene {
+        Some(AnyScene::Line(scene)) => line(case, scene, record, monitor),
+        Some(AnyScene::Space(scene)) => spatial::in_space(case, scene, record, options, monitor),
+        None => eulerian(case, record),
+    }
+}
+
+/// The record of a run that has not begun.
+fn blank(key: RunKey, threads: usize, command: String) -> RunRecord {
+    RunRecord {
         schema: SCHEMA,
         key,
         threads,
@@ -304,23 +284,22 @@ pub fn run(case: &dyn Case, request: Request, monitor: &dyn Monitor) -> Result<R
         space: None,
         profile: None,
         history: None,
+        pictures: Vec::new(),
         provenance: Provenance::here(command),
-    };
-    match scene {
-        Some(AnyScene::Line(scene)) => line(case, scene, record, monitor),
-        Some(AnyScene::Space(scene)) => in_space(case, scene, record, monitor),
-        None => {
-            debug_assert_eq!(record.key.scheme, Scheme::Godunov);
-            let start = ProcessTime::now();
-            let eulerian = case.eulerian(&record.key.variant, record.key.n)?;
-            record.cpu_seconds = eulerian.cpu.unwrap_or_else(|| start.elapsed()).as_secs_f64();
-            record.steps = eulerian.steps;
-            record.particle_steps = eulerian.cell_steps;
-            record.energy_drift = eulerian.energy_drift;
-            fill(&mut record, eulerian.findings);
-            Ok(Run { record, failure: None })
-        }
     }
+}
+
+/// The Godunov code on a case.
+fn eulerian(case: &dyn Case, mut record: RunRecord) -> Result<Run, RunError> {
+    debug_assert_eq!(record.key.scheme, Scheme::Godunov);
+    let start = ProcessTime::now();
+    let eulerian = case.eulerian(&record.key.variant, record.key.n)?;
+    record.cpu_seconds = eulerian.cpu.unwrap_or_else(|| start.elapsed()).as_secs_f64();
+    record.steps = eulerian.steps;
+    record.particle_steps = eulerian.cell_steps;
+    record.energy_drift = eulerian.energy_drift;
+    fill(&mut record, eulerian.findings);
+    Ok(Run::new(record, None))
 }
 
 fn line(
@@ -354,60 +333,7 @@ fn line(
     record.limiters = Some(solver.decided());
     record.ledger = Some(ledger);
     record.scene = Some(scene.into());
-    Ok(Run { record, failure })
-}
-
-fn in_space(
-    case: &dyn Case,
-    scene: space::Scene,
-    mut record: RunRecord,
-    monitor: &dyn Monitor,
-) -> Result<Run, RunError> {
-    let mut driver = SpaceDriver::new(&scene, monitor)?;
-    let mut failure = None;
-    match case.measure_space(&scene, &record.key, &mut driver) {
-        Ok(findings) => fill(&mut record, findings),
-        Err(RunError::Step(error)) => {
-            record.outcome =
-                Outcome::Failed { kind: error.kind().into(), message: error.to_string() };
-            failure = Some(error);
-        }
-        Err(other) => return Err(other),
-    }
-    let balance = driver.balance();
-    let solver = driver.solver();
-    let (counters, (failed_elements, dead_elements)) = (solver.counters(), solver.failed());
-    record.steps = counters.steps;
-    record.particle_steps = counters.particle_steps;
-    record.cpu_seconds = driver.cpu.as_secs_f64();
-    record.energy_drift = driver.worst.energy;
-    record.momentum_drift = driver.worst.momentum;
-    record.counters = Some(counters);
-    record.space = Some(SpaceRecord {
-        particles: solver.particles(),
-        elements: solver.elements(),
-        failed_elements,
-        dead_elements,
-        balance,
-        geometry_mass_error: geometry_mass_error(&scene, solver),
-        mass_error: balance.mass_error(),
-        angular_momentum_drift: driver.worst.angular,
-        ledger_residual: balance.relative_residual(),
-        updates_per_cpu_second: counters.particle_steps as f64 / record.cpu_seconds,
-        bytes_per_particle: solver.bytes() as f64 / solver.particles() as f64,
-    });
-    record.scene = Some(scene.into());
-    Ok(Run { record, failure })
-}
-
-/// Largest error of the mass of a body as it is meshed, over that of its shape.
-fn geometry_mass_error(scene: &space::Scene, solver: &space::Simulation) -> f64 {
-    let holdings = solver.holdings();
-    let errors = scene.bodies.iter().zip(&holdings).filter_map(|(body, held)| {
-        let material = &scene.materials[scene.material_index(&body.material)?];
-        Some((held.mass / (material.density * body.shape.volume()) - 1.0).abs())
-    });
-    errors.fold(0.0, f64::max)
+    Ok(Run::new(record, failure))
 }
 
 fn fill(record: &mut RunRecord, findings: Findings) {

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 use whipple_solver::error::SceneError;
 use whipple_solver::method::Density;
+use whipple_solver::units::Units;
 use whipple_solver::{scene, space};
 
 /// A scene in one dimension or in three. Written down it is the scene itself: the two have no form
@@ -52,6 +53,15 @@ impl AnyScene {
         match self {
             Self::Line(scene) => scene.stop_time,
             Self::Space(scene) => scene.stop_time,
+        }
+    }
+
+    /// The units that it is stated in.
+    #[must_use]
+    pub fn units(&self) -> Units {
+        match self {
+            Self::Line(scene) => scene.units,
+            Self::Space(scene) => scene.units,
         }
     }
 

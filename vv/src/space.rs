@@ -1,7 +1,9 @@
 //! What leaves and enters a run in three dimensions: checkpoints, frames for viewers, histories and
-//! pictures.
+//! pictures, and what writes them while the run goes on.
 
 pub mod checkpoint;
 pub mod frames;
 pub mod history;
+pub mod measured;
 pub mod picture;
+pub mod recorder;

@@ -7,8 +7,9 @@ use whipple_solver::method::Preset;
 use crate::cases::{Case, Level};
 use crate::claims::{Verdict, judge};
 use crate::files::{FileError, ensure_writable_dir, write_atomic};
+use crate::pictures::{PICTURES, write_photos};
 use crate::record::{RecordError, Records, RunKey, RunRecord, Scheme};
-use crate::run::{Monitor, Request, RunError, run};
+use crate::run::{Monitor, Request, RunError, SpaceOptions, run_with};
 use crate::scene::AnyScene;
 
 /// Folder of the records inside a report folder.
@@ -106,14 +107,19 @@ pub fn run_suite(
                 command: command_of(&key),
                 key,
             };
-            let result = run(*case, request, monitor);
-            let mut record =
-                result.map_err(|source| SuiteError::Run { key: file.clone(), source })?.record;
+            let options = SpaceOptions { pictures: case.draws(&request.key), ..Default::default() };
+            let result = run_with(*case, request, options, monitor);
+            let done = result.map_err(|source| SuiteError::Run { key: file.clone(), source })?;
+            let mut record = done.record;
             if !case.draws(&record.key) {
                 record.profile = None;
                 record.history = None;
             }
             said(&record.key, Some(&record));
+            // A record always has its pictures beside it.
+            if !done.photos.is_empty() {
+                write_photos(&folder.join(PICTURES), &done.photos)?;
+            }
             write_record(&folder.join(&file), &record)?;
         }
     }

@@ -1,8 +1,11 @@
 //! The paper's third problem: a tungsten rod through a steel plate at 60 degrees.
 
+mod photos;
 mod residual;
 
 use whipple_solver::method::Preset;
+use whipple_solver::space::Simulation;
+use whipple_solver::space::ledger::Balance;
 use whipple_solver::space::method::Method;
 use whipple_solver::space::scene::{
     Body, EosData, Failure, Flow, GammaLaw, Material, Scene, Shape, Strength, Turn,
@@ -144,36 +147,48 @@ fn paper_key(n: usize) -> RunKey {
     RunKey::new(ID, Scheme::preset(Preset::Paper), n).variant(AS_PRINTED)
 }
 
+/// What is read off a state, in this order.
+const HISTORY: [&str; 13] = [
+    "time",
+    "length",
+    "velocity",
+    "mass",
+    "kinetic",
+    "internal",
+    "shear",
+    "tension",
+    "residual",
+    "momentum_x",
+    "momentum_y",
+    "failed",
+    "dt",
+];
+
+/// The numbers of [`HISTORY`] of a state.
+fn look(solver: &Simulation, balance: &Balance) -> Vec<f64> {
+    let left = residual::largest(solver, 0);
+    let now = &balance.now;
+    vec![
+        solver.time(),
+        left.length,
+        10.0 * left.velocity,
+        left.mass,
+        KILOJOULES * now.kinetic,
+        KILOJOULES * now.internal,
+        KILOJOULES * now.shear,
+        KILOJOULES * now.tension,
+        KILOJOULES * balance.residual(),
+        now.momentum[0],
+        now.momentum[1],
+        solver.failed().0 as f64,
+        solver.last_step(),
+    ]
+}
+
 /// Histories of a run, column by column.
-#[derive(Default)]
-struct History(Series);
-
-impl History {
-    fn enter(&mut self, name: &str, value: f64) {
-        self.0.0.entry(name.into()).or_default().push(value);
-    }
-
-    /// Enters the present state of a run; gives what is left of the rod.
-    fn look(&mut self, driver: &mut SpaceDriver<'_>) -> residual::Residual {
-        let balance = driver.balance();
-        let solver = driver.solver();
-        let left = residual::largest(solver, 0);
-        let now = &balance.now;
-        self.enter("time", solver.time());
-        self.enter("length", left.length);
-        self.enter("velocity", 10.0 * left.velocity);
-        self.enter("mass", left.mass);
-        self.enter("kinetic", KILOJOULES * now.kinetic);
-        self.enter("internal", KILOJOULES * now.internal);
-        self.enter("shear", KILOJOULES * now.shear);
-        self.enter("tension", KILOJOULES * now.tension);
-        self.enter("residual", KILOJOULES * balance.residual());
-        self.enter("momentum_x", now.momentum[0]);
-        self.enter("momentum_y", now.momentum[1]);
-        self.enter("failed", solver.failed().0 as f64);
-        self.enter("dt", solver.last_step());
-        left
-    }
+fn columns(rows: &[Vec<f64>]) -> Series {
+    let column = |k: usize| rows.iter().map(|row| row[k]).collect();
+    Series(HISTORY.into_iter().enumerate().map(|(k, name)| (name.into(), column(k))).collect())
 }
 
 impl Case for LongRod {
@@ -229,25 +244,33 @@ impl Case for LongRod {
     fn measure_space(
         &self,
         scene: &Scene,
-        _: &RunKey,
+        key: &RunKey,
         driver: &mut SpaceDriver<'_>,
     ) -> Result<Findings, RunError> {
-        let mut history = History::default();
-        let mut left = history.look(driver);
-        let whole = left.mass;
+        let shown = *key == default_key(SIZES[0], "");
+        let mut rows = vec![driver.look(look)?];
+        if shown {
+            photos::take(driver, scene, 0.0)?;
+        }
         let entries = (scene.stop_time / EVERY).ceil() as usize;
         for k in 1..=entries {
-            driver.advance_to((k as f64 * EVERY).min(scene.stop_time))?;
-            left = history.look(driver);
+            let time = (k as f64 * EVERY).min(scene.stop_time);
+            driver.advance_to(time)?;
+            rows.push(driver.look(look)?);
+            if shown {
+                photos::take(driver, scene, time)?;
+            }
         }
+        let history = columns(&rows);
+        let last = |name: &str| history.0[name].last().copied().unwrap_or(f64::NAN);
         let mut findings = Findings::default();
         let mut enter = |name: &str, value: f64| findings.norms.insert(name.into(), value);
-        enter("residual_length_cm", left.length);
-        enter("residual_velocity_km_s", 10.0 * left.velocity);
-        enter("residual_mass_share", left.mass / whole);
+        enter("residual_length_cm", last("length"));
+        enter("residual_velocity_km_s", last("velocity"));
+        enter("residual_mass_share", last("mass") / history.0["mass"][0]);
         enter("particles", driver.solver().particles() as f64);
-        enter("failed_elements", driver.solver().failed().0 as f64);
-        findings.history = Some(history.0);
+        enter("failed_elements", last("failed"));
+        findings.history = Some(history);
         Ok(findings)
     }
 

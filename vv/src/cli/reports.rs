@@ -3,23 +3,24 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use super::progress::Progress;
+use super::progress::{Outlook, Progress};
 use super::run::find_all;
 use super::{CLAIM_FAILED, Failure, ReferenceArgs, ReportArgs, VvArgs, print, say};
 use crate::cases::woodward_colella;
 use crate::claims::{Status, Verdict, Weight};
 use crate::document;
 use crate::files::{ensure_writable_dir, write_atomic};
+use crate::pictures::read_pictures;
 use crate::plots;
 use crate::record::{Outcome, Records};
-use crate::report;
+use crate::report::{self, Drawing};
 use crate::suite::{records_folder, run_suite, verdicts};
 
 /// Runs, judges, reports.
 pub(super) fn vv(args: &VvArgs) -> Result<u8, Failure> {
     let cases = find_all(&args.cases)?;
     ensure_writable_dir(&args.out)?;
-    let progress = Progress::new();
+    let progress = Progress::new(Outlook::default());
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
     let pool = pool.map_err(|e| Failure::usage(format!("cannot start a thread: {e}")))?;
     let ended = pool.install(|| {
@@ -86,16 +87,19 @@ fn compare(
     Ok(())
 }
 
-type Made = (report::Report, BTreeMap<String, String>, Vec<Verdict>);
+type Made = (report::Report, BTreeMap<String, Drawing>, Vec<Verdict>);
 
 /// The report of a folder of records, in memory.
 fn made(folder: &Path) -> Result<Made, Failure> {
-    let records = Records::read(&records_folder(folder))?;
+    let there = records_folder(folder);
+    let records = Records::read(&there)?;
+    // Pictures are not drawn again: they must be those of the records.
+    let mut drawings = read_pictures(&there, &records).map_err(Failure::usage)?;
     let verdicts = verdicts(&records);
     let (page, figures) = document::compose(&records, &verdicts);
-    let mut drawings = BTreeMap::new();
     for figure in &figures {
-        drawings.insert(figure.id.clone(), plots::render_svg(figure).map_err(Failure::usage)?);
+        let svg = plots::render_svg(figure).map_err(Failure::usage)?;
+        drawings.insert(figure.id.clone(), Drawing::Chart(svg));
     }
     Ok((page, drawings, verdicts))
 }

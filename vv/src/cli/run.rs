@@ -5,16 +5,22 @@ use std::path::Path;
 
 use serde::Serialize;
 use whipple_solver::method::Preset;
+use whipple_solver::space;
+use whipple_solver::units::{Dimension, Units};
 
-use super::progress::Progress;
-use super::{Failure, NUMERICAL_FAILURE, RunArgs, print, say};
+use super::progress::{Outlook, Progress};
+use super::{Failure, INTERRUPTED, NUMERICAL_FAILURE, RunArgs, print, say};
 use crate::cases::{self, Case};
+use crate::checkpoint::CheckpointError;
 use crate::files::{ensure_writable_dir, write_atomic};
 use crate::overrides;
+use crate::pictures::{PICTURES, write_photos};
 use crate::record::{Outcome, RunKey, RunRecord, Scheme, Series};
 use crate::report::sig;
-use crate::run::{Request, run as run_case};
+use crate::run::{Request, Run, RunError, SpaceOptions, run_with};
 use crate::scene::AnyScene;
+use crate::space::checkpoint::{Halted, ResumeError, load};
+use crate::space::recorder::Recorder;
 use crate::suggest::did_you_mean;
 use crate::suite::{command_of, scene_of, write_record};
 
@@ -96,26 +102,130 @@ pub(super) fn run(args: &RunArgs) -> Result<u8, Failure> {
         return Err(Failure::usage(message));
     }
     let request = request(case, args)?;
-    if let Some(out) = &args.out {
-        ensure_writable_dir(out)?;
-    }
+    let scene = request.scene.clone();
+    let (options, outlook) = match &scene {
+        Some(AnyScene::Space(scene)) => options(scene, args)?,
+        _ => (only_in_space(args)?, Outlook::default()),
+    };
+    let unit = scene.as_ref().map_or("", |scene| scene.units().label(Dimension::Time));
 
-    let progress = Progress::new();
+    let progress = Progress::new(Outlook { unit, ..outlook });
     progress.start(case.id());
     let pool = rayon::ThreadPoolBuilder::new().num_threads(args.threads).build();
     let pool = pool.map_err(|e| Failure::usage(format!("cannot start threads: {e}")))?;
-    let done = pool.install(|| run_case(case, request, &progress));
+    let command = request.command.clone();
+    let done = pool.install(|| run_with(case, request, options, &progress));
     progress.done();
-    let done = done?;
+    let done = match done {
+        Err(RunError::Interrupted { checkpoint }) => {
+            let why = if progress.is_late() { "--max-wall is over" } else { "interrupted" };
+            let space = matches!(scene, Some(AnyScene::Space(_)));
+            let next = space.then(|| how_to_go_on(args, &command, checkpoint.as_deref()));
+            let message = format!("{why}{}", next.unwrap_or_default());
+            return Err(Failure { code: INTERRUPTED, message });
+        }
+        other => other?,
+    };
 
     if let Some(out) = &args.out {
-        write_outputs(out, &done.record)?;
+        write_outputs(out, &done)?;
     }
     print(&if args.json { json(&done.record)? } else { text(case, &done.record) })?;
     match done.failure {
-        Some(error) => Err(Failure { code: NUMERICAL_FAILURE, message: error.to_string() }),
+        Some(error) => {
+            let kept = done
+                .checkpoint
+                .map(|path| format!("; the last good state is kept in {}", path.display()));
+            let message = format!("{error}{}", kept.unwrap_or_default());
+            Err(Failure { code: NUMERICAL_FAILURE, message })
+        }
         None => Ok(0),
     }
+}
+
+/// Makes the folder for the results of a run along a line; options that such a run has no use for are
+/// refused.
+fn only_in_space(args: &RunArgs) -> Result<SpaceOptions, Failure> {
+    let given = [
+        ("--vtu", args.vtu.is_some()),
+        ("--resume", args.resume.is_some()),
+        ("--max-wall", args.max_wall.is_some()),
+    ];
+    if let Some((option, _)) = given.into_iter().find(|(_, given)| *given) {
+        let message = format!("{option} needs a case in three dimensions, `{}` is none", args.case);
+        return Err(Failure::usage(message));
+    }
+    if let Some(out) = &args.out {
+        ensure_writable_dir(out)?;
+    }
+    Ok(SpaceOptions::default())
+}
+
+/// What a run in three dimensions goes on from and leaves, and what to expect of it. Nothing is written
+/// before the checkpoint has been read.
+fn options(scene: &space::Scene, args: &RunArgs) -> Result<(SpaceOptions, Outlook), Failure> {
+    let every = args.vtu.map(|every| every.in_units("--vtu", scene.units)).transpose()?;
+    let from = args.resume.as_deref().map(|path| resume(path, scene)).transpose()?;
+    let recorder = match &args.out {
+        Some(out) => {
+            ensure_writable_dir(out)?;
+            let recorder = Recorder::new(out, scene, every, from.as_ref());
+            Some(recorder.map_err(Failure::usage)?)
+        }
+        None => None,
+    };
+    let done = from.as_ref().map(|halted| &halted.simulation);
+    let outlook = Outlook {
+        from: done.map_or((0.0, 0), |s| (s.time(), s.counters().particle_steps)),
+        max_wall: args.max_wall,
+        unit: "",
+    };
+    let pictures = recorder.is_some();
+    Ok((SpaceOptions { from, recorder, pictures }, outlook))
+}
+
+/// The run that a checkpoint was written of.
+fn resume(path: &Path, scene: &space::Scene) -> Result<Halted, Failure> {
+    let refused = |why: String| Failure::usage(format!("--resume {}: {why}", path.display()));
+    let halted = load(path, scene).map_err(|error| match error {
+        ResumeError::Checkpoint(CheckpointError::Scene { .. }) => refused(format!(
+            "{error}; give case, preset, variant, --n, --density and --set as in the run that wrote it"
+        )),
+        error => refused(error.to_string()),
+    })?;
+    let (time, stop) = (halted.simulation.time(), scene.stop_time);
+    if stop < time {
+        return Err(refused(format!(
+            "it is of time {time}, wanted --stop {time} or later, not {stop}"
+        )));
+    }
+    Ok(halted)
+}
+
+/// Where a run that was stopped stands, and the command that continues it.
+fn how_to_go_on(args: &RunArgs, command: &str, checkpoint: Option<&Path>) -> String {
+    let (Some(out), Some(checkpoint)) = (&args.out, checkpoint) else {
+        return if args.out.is_some() {
+            "; no checkpoint: this case reads states that a checkpoint does not keep".into()
+        } else {
+            "; nothing is kept without --out".into()
+        };
+    };
+    let mut again = command.to_owned();
+    if let Some(every) = args.vtu {
+        again += &format!(" --vtu {every}");
+    }
+    if args.threads != 1 {
+        again += &format!(" --threads {}", args.threads);
+    }
+    if let Some(time) = args.max_wall {
+        again += &format!(
+            " --max-wall {}",
+            humantime::format_duration(time).to_string().replace(' ', "")
+        );
+    }
+    let [out, checkpoint] = [out, checkpoint].map(|path| path.display());
+    format!("; continue with\n  {again} --out {out} --resume {checkpoint}")
 }
 
 fn find(name: &str) -> Result<&'static dyn Case, Failure> {
@@ -145,13 +255,15 @@ fn request(case: &dyn Case, args: &RunArgs) -> Result<Request, Failure> {
     };
     let mut key = RunKey::new(case.id(), scheme, n).variant(&args.variant);
     let plain = scene_of(case, &key);
+    let units = plain.as_ref().map_or(Units::None, AnyScene::units);
+    let stop = args.stop.map(|time| time.in_units("--stop", units)).transpose()?;
     let scene = plain
         .clone()
         .map(|scene| overrides::apply(scene, &args.sets))
         .transpose()
         .map_err(Failure::usage)?;
     let scene = scene.map(|mut scene| {
-        if let Some(time) = args.stop {
+        if let Some(time) = stop {
             scene.set_stop_time(time);
         }
         scene
@@ -174,7 +286,7 @@ fn request(case: &dyn Case, args: &RunArgs) -> Result<Request, Failure> {
         })?;
     }
     let mut command = command_of(&key);
-    if let Some(time) = args.stop {
+    if let Some(time) = stop {
         command += &format!(" --stop {time}");
     }
     for set in &args.sets {
@@ -236,8 +348,9 @@ fn text(case: &dyn Case, record: &RunRecord) -> String {
     out
 }
 
-/// The record, the frozen scene and the fields.
-fn write_outputs(out: &Path, record: &RunRecord) -> Result<(), Failure> {
+/// The record, the frozen scene, the fields and the pictures.
+fn write_outputs(out: &Path, done: &Run) -> Result<(), Failure> {
+    let record = &done.record;
     if let Some(scene) = &record.scene {
         let toml = toml::to_string_pretty(scene).map_err(Failure::usage)?;
         write_atomic(&out.join("scene.toml"), toml.as_bytes())?;
@@ -246,6 +359,9 @@ fn write_outputs(out: &Path, record: &RunRecord) -> Result<(), Failure> {
         if let Some(series) = series {
             write_atomic(&out.join(name), csv(series)?.as_bytes())?;
         }
+    }
+    if !done.photos.is_empty() {
+        write_photos(&out.join(PICTURES), &done.photos)?;
     }
     // Last, so that a record always has its fields beside it.
     Ok(write_record(&out.join("record.json"), record)?)

@@ -43,6 +43,10 @@ pub(super) fn section(
     for figure in &figures {
         blocks.push(Block::Figure { id: figure.id.clone(), caption: figure.caption.clone() });
     }
+    for picture in runs.iter().flat_map(|run| &run.pictures) {
+        let caption = picture.caption.clone();
+        blocks.push(Block::Picture { id: picture.id.clone(), caption });
+    }
     (Section::new(case.id(), case.title(), blocks), figures)
 }
 

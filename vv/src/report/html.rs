@@ -2,10 +2,13 @@
 
 use super::ReportError;
 use super::inline;
-use super::model::{Align, Block, Report};
+use super::model::{Align, Block, Drawing, Report};
 use super::outline::{self, Chapter};
 use crate::plots::{THEME, themed};
+use crate::xml::escape;
 use askama::Template;
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
 use std::collections::BTreeMap;
 
 /// The whole page.
@@ -14,7 +17,7 @@ use std::collections::BTreeMap;
 struct Page<'a> {
     report: &'a Report,
     chapters: Vec<Chapter<'a>>,
-    figures: &'a BTreeMap<String, String>,
+    figures: &'a BTreeMap<String, Drawing>,
 }
 
 impl Page<'_> {
@@ -30,8 +33,28 @@ impl Page<'_> {
         inline::display(tex)
     }
 
-    fn picture(&self, id: &str) -> String {
-        self.figures.get(id).map(|svg| themed(svg)).unwrap_or_default()
+    fn figure(&self, id: &str) -> String {
+        match self.figures.get(id) {
+            Some(Drawing::Chart(svg)) => themed(svg),
+            _ => String::new(),
+        }
+    }
+
+    /// The picture for light and dark pages within the page; paper gets the light one.
+    fn picture(&self, id: &str, caption: &str) -> String {
+        let Some(Drawing::Picture { light, dark }) = self.figures.get(id) else {
+            return String::new();
+        };
+        let data = |file: &[u8]| format!("data:image/png;base64,{}", STANDARD.encode(file));
+        let size = size(light).map(|[w, h]| format!(" width=\"{w}\" height=\"{h}\""));
+        format!(
+            "<picture><source media=\"screen and (prefers-color-scheme: dark)\" srcset=\"{}\">\
+             <img alt=\"{}\"{} src=\"{}\"></picture>",
+            data(dark),
+            escape(&inline::plain(caption)),
+            size.unwrap_or_default(),
+            data(light),
+        )
     }
 
     fn class(&self, align: &Align) -> &'static str {
@@ -56,12 +79,18 @@ impl Page<'_> {
 }
 
 /// The report as one page without scripts or outside resources, in light and dark, for screen and
-/// paper. `figures` are SVG texts by id.
+/// paper.
 ///
 /// # Errors
 /// An id is unfit or used twice, a figure is missing, or a row does not fit its table.
-pub fn html(report: &Report, figures: &BTreeMap<String, String>) -> Result<String, ReportError> {
+pub fn html(report: &Report, figures: &BTreeMap<String, Drawing>) -> Result<String, ReportError> {
     outline::check(report, figures)?;
     let chapters = outline::outline(report);
     Ok(Page { report, chapters, figures }.render()?)
+}
+
+/// Width and height of a PNG file in pixels.
+fn size(png: &[u8]) -> Option<[u32; 2]> {
+    let word = |at: usize| Some(u32::from_be_bytes(png.get(at..at + 4)?.try_into().ok()?));
+    Some([word(16)?, word(20)?])
 }

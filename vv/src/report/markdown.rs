@@ -4,7 +4,7 @@ use super::inline::{markdown as rich, plain};
 use super::model::{Align, Block, Cell, Report, Status, Table};
 use super::outline::outline;
 
-/// The report as Markdown; figures are links to `figures/ID.svg`.
+/// The report as Markdown; figures are links to `figures/ID.svg`, pictures to `figures/ID.png`.
 pub fn markdown(report: &Report) -> String {
     let mut parts = vec![format!("# {}", rich(&report.title))];
     let counts: Vec<_> =
@@ -33,11 +33,8 @@ fn block(number: usize, block: &Block) -> String {
             format!("$$\n{}{tag}\n$$", tex.trim())
         }
         Block::Table(content) => table(number, content),
-        Block::Figure { id, caption } => {
-            let name = plain(caption).replace(['[', ']', '\n'], " ");
-            let (anchor, caption) = (anchor("fig-", id), rich(caption));
-            format!("{anchor}![{name}](figures/{id}.svg)\n\n**Figure {number}** – {caption}")
-        }
+        Block::Figure { id, caption } => figure(number, (id, "svg"), caption),
+        Block::Picture { id, caption } => figure(number, (id, "png"), caption),
         Block::List(items) => lines(items.iter().map(|item| format!("- {}", rich(item)))),
         Block::Definitions(pairs) => {
             let item =
@@ -55,6 +52,12 @@ fn block(number: usize, block: &Block) -> String {
             format!("> [!{name}]\n> {}", rich(text))
         }
     }
+}
+
+fn figure(number: usize, (id, kind): (&str, &str), caption: &str) -> String {
+    let name = plain(caption).replace(['[', ']', '\n'], " ");
+    let (anchor, caption) = (anchor("fig-", id), rich(caption));
+    format!("{anchor}![{name}](figures/{id}.{kind})\n\n**Figure {number}** – {caption}")
 }
 
 fn table(number: usize, table: &Table) -> String {

@@ -14,7 +14,7 @@ mod write;
 
 pub use html::html;
 pub use markdown::markdown;
-pub use model::{Align, Block, Cell, Column, Report, Section, Status, Summary, Table};
+pub use model::{Align, Block, Cell, Column, Drawing, Report, Section, Status, Summary, Table};
 pub use number::sig;
 pub use sheet::csv;
 pub use write::write;

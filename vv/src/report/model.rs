@@ -69,6 +69,13 @@ pub enum Block {
         /// Its caption.
         caption: String,
     },
+    /// A picture, which has no vector form.
+    Picture {
+        /// Its id: the stem of its files.
+        id: String,
+        /// Its caption.
+        caption: String,
+    },
     /// A bullet list.
     List(Vec<String>),
     /// Names with their meanings, such as the provenance of a run.
@@ -80,6 +87,33 @@ pub enum Block {
         /// Its text.
         text: String,
     },
+}
+
+/// What a figure shows.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Drawing {
+    /// A chart, as the text of an SVG file.
+    Chart(String),
+    /// A picture, as PNG files.
+    Picture {
+        /// For light pages and paper.
+        light: Vec<u8>,
+        /// For dark pages.
+        dark: Vec<u8>,
+    },
+}
+
+impl Drawing {
+    /// Names of the two files of a picture.
+    pub fn picture_files(id: &str) -> [String; 2] {
+        [format!("{id}.png"), format!("{id}-dark.png")]
+    }
+}
+
+impl From<&str> for Drawing {
+    fn from(svg: &str) -> Self {
+        Self::Chart(svg.into())
+    }
 }
 
 /// A verdict, or the weight of a remark.

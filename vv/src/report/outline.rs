@@ -1,7 +1,7 @@
 //! The order of a report: numbered headings, figures and tables, and the check of its ids.
 
 use super::ReportError;
-use super::model::{Block, Report, Section};
+use super::model::{Block, Drawing, Report, Section};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A section in reading order.
@@ -35,7 +35,7 @@ fn walk<'a>(
         let number = format!("{prefix}{}", i + 1);
         let mut count = |block: &'a Block| {
             let counter = match block {
-                Block::Figure { .. } => &mut counts.0,
+                Block::Figure { .. } | Block::Picture { .. } => &mut counts.0,
                 Block::Table(_) => &mut counts.1,
                 _ => return (0, block),
             };
@@ -52,7 +52,7 @@ fn walk<'a>(
 /// Checks that ids are fit for file names and unique, and that every figure is there.
 pub(super) fn check(
     report: &Report,
-    figures: &BTreeMap<String, String>,
+    figures: &BTreeMap<String, Drawing>,
 ) -> Result<(), ReportError> {
     let mut seen = BTreeSet::new();
     let mut claim = |kind: &'static str, id: &str| match valid(id) {
@@ -72,7 +72,14 @@ pub(super) fn check(
                 }
                 Block::Figure { id, .. } => {
                     claim("figure", id)?;
-                    if !figures.contains_key(id) {
+                    if !matches!(figures.get(id), Some(Drawing::Chart(_))) {
+                        return Err(ReportError::MissingFigure(id.clone()));
+                    }
+                }
+                Block::Picture { id, .. } => {
+                    claim("figure", id)?;
+                    claim("figure", &format!("{id}-dark"))?;
+                    if !matches!(figures.get(id), Some(Drawing::Picture { .. })) {
                         return Err(ReportError::MissingFigure(id.clone()));
                     }
                 }

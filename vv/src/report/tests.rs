@@ -56,8 +56,8 @@ fn report() -> Report {
     }
 }
 
-fn figures() -> BTreeMap<String, String> {
-    [("noh".to_owned(), SVG.to_owned())].into()
+fn figures() -> BTreeMap<String, Drawing> {
+    [("noh".to_owned(), SVG.into())].into()
 }
 
 #[test]
@@ -166,6 +166,32 @@ fn a_new_report_replaces_the_old_and_nothing_else() {
 }
 
 #[test]
+fn pictures_are_in_the_page_and_beside_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut shown = report();
+    let picture = |id: &str| Block::Picture { id: id.into(), caption: "A \"rod\"".into() };
+    shown.sections[1].blocks.push(picture("rod"));
+    let mut drawings = figures();
+    let (light, dark) = (b"\x89PNG, light".to_vec(), b"\x89PNG, dark".to_vec());
+    let drawing = Drawing::Picture { light: light.clone(), dark: dark.clone() };
+    drawings.insert("rod".into(), drawing);
+    write(&shown, &drawings, folder.path()).unwrap();
+    assert_eq!(fs::read(folder.path().join("figures/rod.png")).unwrap(), light);
+    assert_eq!(fs::read(folder.path().join("figures/rod-dark.png")).unwrap(), dark);
+    let page = fs::read_to_string(folder.path().join("index.html")).unwrap();
+    assert!(page.contains("alt=\"A &quot;rod&quot;\""), "{page}");
+    assert_eq!(page.matches("data:image/png;base64,").count(), 2);
+    assert!(page.contains("<b>Figure 2</b>"));
+    assert!(markdown(&shown).contains("![A \"rod\"](figures/rod.png)\n\n**Figure 2** – A"));
+    // One that is gone from the report goes from the folder.
+    write(&report(), &figures(), folder.path()).unwrap();
+    assert!(!folder.path().join("figures/rod-dark.png").exists());
+    assert!(matches!(html(&shown, &figures()), Err(ReportError::MissingFigure(_))));
+    shown.sections[0].blocks.push(picture("rod"));
+    assert!(matches!(html(&shown, &drawings), Err(ReportError::Duplicate(_))));
+}
+
+#[test]
 fn refusals_name_path_and_cause() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("file");
@@ -200,7 +226,7 @@ fn something_in_the_way_leaves_no_index() {
 fn a_folder_that_cannot_be_staged_keeps_the_old_report() {
     let folder = tempfile::tempdir().unwrap();
     write(&report(), &figures(), folder.path()).unwrap();
-    let broken = [("noh".to_owned(), "no svg".to_owned())].into();
+    let broken = [("noh".to_owned(), "no svg".into())].into();
     let error = write(&report(), &broken, folder.path()).unwrap_err();
     assert!(matches!(error, ReportError::Picture { .. }));
     assert!(folder.path().join("index.html").exists());

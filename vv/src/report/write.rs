@@ -1,6 +1,6 @@
 //! The report as a folder that is either whole or has no `index.html`.
 
-use super::model::{Block, Report};
+use super::model::{Block, Drawing, Report};
 use super::outline::{outline, valid};
 use super::{ReportError, csv, html, markdown};
 use crate::plots::svg_to_png;
@@ -17,7 +17,8 @@ const STAGE: &str = ".report-partial";
 /// Pixels of a PNG per pixel of its SVG.
 const PNG_SCALE: f32 = 2.0;
 
-/// Writes `index.html`, `report.md`, `figures/ID.svg` and `.png`, and `tables/ID.csv`.
+/// Writes `index.html`, `report.md`, `figures/ID.svg` and `.png`, and `tables/ID.csv`;
+/// a picture is `figures/ID.png` and `ID-dark.png`.
 ///
 /// All files are made in a temporary folder first, so that a failure while making them leaves an
 /// earlier report as it was. Then `index.html` is removed, the others take their places, those of
@@ -28,7 +29,7 @@ const PNG_SCALE: f32 = 2.0;
 /// As [`html`]; a figure is not valid SVG; or the file system refuses, with path and cause.
 pub fn write(
     report: &Report,
-    figures: &BTreeMap<String, String>,
+    figures: &BTreeMap<String, Drawing>,
     dir: &Path,
 ) -> Result<(), ReportError> {
     let files = render(report, figures)?;
@@ -42,16 +43,25 @@ pub fn write(
 /// All files by their path in the folder, but the manifest.
 fn render(
     report: &Report,
-    figures: &BTreeMap<String, String>,
+    figures: &BTreeMap<String, Drawing>,
 ) -> Result<BTreeMap<String, Vec<u8>>, ReportError> {
     let mut files = BTreeMap::new();
     files.insert(INDEX.to_owned(), html(report, figures)?.into_bytes());
     files.insert("report.md".to_owned(), markdown(report).into_bytes());
-    for (id, svg) in figures {
-        let png = svg_to_png(svg, PNG_SCALE);
-        let png = png.map_err(|source| ReportError::Picture { id: id.clone(), source })?;
-        files.insert(format!("figures/{id}.png"), png);
-        files.insert(format!("figures/{id}.svg"), svg.clone().into_bytes());
+    for (id, drawing) in figures {
+        match drawing {
+            Drawing::Chart(svg) => {
+                let png = svg_to_png(svg, PNG_SCALE);
+                let png = png.map_err(|source| ReportError::Picture { id: id.clone(), source })?;
+                files.insert(format!("figures/{id}.png"), png);
+                files.insert(format!("figures/{id}.svg"), svg.clone().into_bytes());
+            }
+            Drawing::Picture { light, dark } => {
+                for (name, file) in Drawing::picture_files(id).iter().zip([light, dark]) {
+                    files.insert(format!("figures/{name}"), file.clone());
+                }
+            }
+        }
     }
     for (_, block) in outline(report).iter().flat_map(|chapter| &chapter.blocks) {
         if let Block::Table(table) = block {

@@ -6,6 +6,7 @@ use whipple_solver::error::SceneError;
 use whipple_solver::space::restart::{RestartError, Values};
 use whipple_solver::space::{Scene, Simulation};
 
+use super::measured::Measured;
 use crate::checkpoint::{CheckpointError, Meta, Reader, Writer, save_next};
 
 /// Why a run does not continue.
@@ -17,6 +18,14 @@ pub enum ResumeError {
     /// The file is whole, but no run has this state.
     #[error(transparent)]
     State(#[from] RestartError),
+    /// The run looked at other times than this one does.
+    #[error("section `measured.times`: {found}, wanted {wanted}")]
+    Looks {
+        /// What stands there.
+        found: String,
+        /// What should stand there.
+        wanted: String,
+    },
     /// The scene itself is not valid.
     #[error(transparent)]
     Scene(#[from] SceneError),
@@ -32,11 +41,24 @@ pub fn scene_hash(scene: &Scene) -> String {
     blake3::hash(&json).to_hex().to_string()
 }
 
-/// A simulation as a checkpoint, to be written.
+/// A run as it is left: its state, and what its case has found so far.
+#[derive(Debug)]
+pub struct Halted {
+    /// The state.
+    pub simulation: Simulation,
+    /// What the case has found.
+    pub measured: Measured,
+}
+
+/// A run as a checkpoint, to be written.
 ///
 /// # Errors
 /// [`CheckpointError::Header`] if its time is not finite.
-pub fn pack(scene: &Scene, simulation: &Simulation) -> Result<Writer, CheckpointError> {
+pub fn pack(
+    scene: &Scene,
+    simulation: &Simulation,
+    measured: &Measured,
+) -> Result<Writer, CheckpointError> {
     let mut writer = Writer::new(Meta {
         program: concat!("whipple ", env!("CARGO_PKG_VERSION")).to_owned(),
         scene: scene_hash(scene),
@@ -52,34 +74,36 @@ pub fn pack(scene: &Scene, simulation: &Simulation) -> Result<Writer, Checkpoint
             Values::U8(values) => writer.section(name, values)?,
         }
     }
+    measured.write(&mut writer)?;
     Ok(writer)
 }
 
-/// Writes the state of a run to `folder`, in which the last two checkpoints are kept.
+/// Writes a run to `folder`, in which the last two checkpoints are kept.
 ///
 /// # Errors
 /// As [`save_next`]; the earlier checkpoints are then still there.
-pub fn save_simulation(
+pub fn save(
     folder: &Path,
     scene: &Scene,
     simulation: &Simulation,
+    measured: &Measured,
 ) -> Result<PathBuf, CheckpointError> {
-    save_next(folder, &pack(scene, simulation)?)
+    save_next(folder, &pack(scene, simulation, measured)?)
 }
 
-/// The simulation of a scene as it was when the checkpoint `path` was written.
+/// The run of a scene as it was when the checkpoint `path` was written.
 ///
 /// # Errors
 /// [`ResumeError`], with the section that is damaged or does not fit.
-pub fn load_simulation(path: &Path, scene: &Scene) -> Result<Simulation, ResumeError> {
+pub fn load(path: &Path, scene: &Scene) -> Result<Halted, ResumeError> {
     unpack(Reader::open(path, &scene_hash(scene))?, scene)
 }
 
-/// The simulation of a scene from an opened checkpoint of it.
+/// The run of a scene from an opened checkpoint of it.
 ///
 /// # Errors
-/// As [`load_simulation`].
-pub fn unpack(mut reader: Reader, scene: &Scene) -> Result<Simulation, ResumeError> {
+/// As [`load`].
+pub fn unpack(mut reader: Reader, scene: &Scene) -> Result<Halted, ResumeError> {
     let mut simulation = Simulation::new(scene)?;
     // A new run has the same sections, of the same types and lengths.
     let mut sections = simulation.sections();
@@ -92,7 +116,8 @@ pub fn unpack(mut reader: Reader, scene: &Scene) -> Result<Simulation, ResumeErr
             Values::U8(values) => *values = reader.array(name, &[values.len()])?,
         }
     }
+    let measured = Measured::read(&mut reader)?;
     reader.finish()?;
     simulation.restore(&sections)?;
-    Ok(simulation)
+    Ok(Halted { simulation, measured })
 }

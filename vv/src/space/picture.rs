@@ -7,7 +7,7 @@ use whipple_solver::units::{Dimension, Units};
 use super::frames::places;
 use crate::paint::{
     Camera, ColourMap, Colouring, Field, Hexahedron, Length, Mark, Model, PaintError, Picture,
-    Plane, Sphere, paint,
+    Plane, Sphere, Theme, paint,
 };
 
 /// What decides the colours.
@@ -53,20 +53,31 @@ pub fn symmetry_plane(simulation: &Simulation) -> Plane {
     Plane { point: [0.0, 0.0, 0.25 * edge], normal: [0.0, 0.0, 1.0] }
 }
 
-/// The box that holds the particles, but for a share of them beyond either end of each axis: scattered
-/// debris would make everything else small.
+/// Share of the particles in elements beyond either end of each axis that need not be seen: single
+/// elements fly far too.
+const LOST: f64 = 0.0002;
+
+/// The box that holds what elements hold, and the loose particles but for a share of them beyond either
+/// end of each axis: scattered debris would make everything else small.
 #[must_use]
 pub fn frame(simulation: &Simulation, share: f64) -> [[f64; 3]; 2] {
-    let positions: Vec<[f64; 3]> = simulation.all_particles().map(|p| p.position).collect();
-    let mut ends = [[0.0; 3]; 2];
-    for axis in 0..3 {
-        let mut along: Vec<f64> = positions.iter().map(|x| x[axis]).collect();
-        along.sort_unstable_by(f64::total_cmp);
-        let out = ((along.len() as f64 * share) as usize).min(along.len().saturating_sub(1) / 2);
-        ends[0][axis] = along.get(out).copied().unwrap_or_default();
-        ends[1][axis] = along.iter().rev().nth(out).copied().unwrap_or_default();
+    let (held, loose): (Vec<Particle>, Vec<Particle>) =
+        simulation.all_particles().partition(|p| p.held > 0.0);
+    let pad = (0..simulation.bodies()).map(|body| simulation.sizes(body).0).fold(0.0, f64::max);
+    let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+    for (particles, share) in [(held, LOST), (loose, share)] {
+        for (axis, (low, high)) in low.iter_mut().zip(&mut high).enumerate() {
+            let mut along: Vec<f64> = particles.iter().map(|p| p.position[axis]).collect();
+            along.sort_unstable_by(f64::total_cmp);
+            let out = (along.len() as f64 * share) as usize;
+            let kept = along.get(out..along.len().saturating_sub(out)).unwrap_or_default();
+            if let [first, .., last] = kept {
+                *low = low.min(first - pad);
+                *high = high.max(last + pad);
+            }
+        }
     }
-    ends
+    [low, high]
 }
 
 /// Live elements as hexahedra, particles without live elements as spheres as wide as a contact is
@@ -103,11 +114,15 @@ fn class(body: usize) -> u8 {
     body.min(usize::from(u8::MAX)) as u8
 }
 
-/// Paints the present state as a PNG file.
+/// Paints the present state as PNG files, for light and for dark pages.
 ///
 /// # Errors
 /// As [`paint`].
-pub fn shoot(simulation: &Simulation, scene: &Scene, shot: &Shot) -> Result<Vec<u8>, PaintError> {
+pub fn shoot(
+    simulation: &Simulation,
+    scene: &Scene,
+    shot: &Shot,
+) -> Result<[Vec<u8>; 2], PaintError> {
     let colouring = match shot.shown {
         Shown::Body => Colouring::Classes(scene.bodies.iter().map(|b| b.name.clone()).collect()),
         Shown::Temperature(range) => Colouring::Field(Field {
@@ -118,14 +133,21 @@ pub fn shoot(simulation: &Simulation, scene: &Scene, shot: &Shot) -> Result<Vec<
         }),
     };
     let unit = scene.units.label(Dimension::Length).to_owned();
-    let picture = Picture {
+    let light = Picture {
         section: shot.section,
         title: shot.title.clone(),
         time: time(simulation.time(), scene.units),
         length: Length { unit, factor: 1.0 },
         ..Picture::new(shot.camera, colouring)
     };
-    paint(&model(simulation), &picture)
+    let dark = Picture { theme: Theme::Dark, ..light.clone() };
+    let mut model = model(simulation);
+    if let Some([low, high]) = shot.camera.frame {
+        // None is cut in half by the edge of the picture.
+        let inside = |x: &[f64; 3]| (0..3).all(|d| low[d] <= x[d] && x[d] <= high[d]);
+        model.spheres.retain(|sphere| inside(&sphere.centre));
+    }
+    Ok([paint(&model, &light)?, paint(&model, &dark)?])
 }
 
 /// The time of a state, as the picture says it.

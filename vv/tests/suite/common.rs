@@ -7,14 +7,26 @@ use std::sync::{Arc, LazyLock, Mutex, OnceLock};
 
 use whipple_solver::method::Preset;
 use whipple_vv::cases::{Case, find};
+use whipple_vv::overrides::apply;
 use whipple_vv::record::{Outcome, RunKey, RunRecord, Scheme};
 use whipple_vv::run::{Request, Silent, run};
+use whipple_vv::scene::AnyScene;
 use whipple_vv::suite::{command_of, scene_of};
 
-type Cell = Arc<OnceLock<RunRecord>>;
+type Runs = LazyLock<Mutex<BTreeMap<RunKey, Arc<OnceLock<RunRecord>>>>>;
 
 /// Runs so far: a test that needs the run of another waits for it.
-static RUNS: LazyLock<Mutex<BTreeMap<RunKey, Cell>>> = LazyLock::new(Mutex::default);
+static RUNS: Runs = LazyLock::new(Mutex::default);
+static BEGINNINGS: Runs = LazyLock::new(Mutex::default);
+
+/// Overrides that cut rod and plate of `long-rod` short: some thousand elements are left.
+pub const SHORT_ROD: [&str; 5] = [
+    "bodies.0.shape.cylinder.length=1.5",
+    "bodies.0.cells=[5,5,15]",
+    "bodies.0.centre=[-1.6134,-0.6815,0.0]",
+    "bodies.1.shape.box.size=[2.0,0.5,1.0]",
+    "bodies.1.cells=[20,5,10]",
+];
 
 /// The case of a name that exists.
 pub fn case(id: &str) -> &'static dyn Case {
@@ -28,19 +40,39 @@ pub fn key(id: &str, preset: Preset, n: usize) -> RunKey {
 
 /// Record of a run, made once in all tests.
 pub fn record(key: &RunKey) -> RunRecord {
-    let cell = RUNS.lock().expect("no test panics here").entry(key.clone()).or_default().clone();
-    cell.get_or_init(|| fresh(key)).clone()
+    once(&RUNS, key, |scene| scene)
 }
 
-fn fresh(key: &RunKey) -> RunRecord {
-    let case = case(&key.case);
-    let request = Request {
-        key: key.clone(),
-        scene: scene_of(case, key),
-        threads: 1,
-        command: command_of(key),
+/// Cells of a scene in space that is run to its end.
+const FEW: usize = 600;
+
+/// Record of a run in space, made once in all tests: of its first tenth where it is long, and of a short
+/// rod instead of the long one.
+pub fn beginning(key: &RunKey) -> RunRecord {
+    once(&BEGINNINGS, key, |scene| {
+        let mut scene = if key.case == "long-rod" { cut_short(scene) } else { scene };
+        let bodies = scene.space().map_or(&[][..], |scene| &scene.bodies);
+        if bodies.iter().map(|body| body.cells.iter().product::<usize>()).sum::<usize>() > FEW {
+            scene.set_stop_time(0.1 * scene.stop_time());
+        }
+        scene
+    })
+}
+
+/// The scene of `long-rod` with rod and plate cut short.
+pub fn cut_short(scene: AnyScene) -> AnyScene {
+    apply(scene, &SHORT_ROD.map(str::to_owned)).expect("overrides that fit")
+}
+
+fn once(runs: &Runs, key: &RunKey, change: impl FnOnce(AnyScene) -> AnyScene) -> RunRecord {
+    let cell = runs.lock().expect("no test panics here").entry(key.clone()).or_default().clone();
+    let fresh = || {
+        let case = case(&key.case);
+        let scene = scene_of(case, key).map(change);
+        let request = Request { key: key.clone(), scene, threads: 1, command: command_of(key) };
+        run(case, request, &Silent).expect("a record").record
     };
-    run(case, request, &Silent).expect("a record").record
+    cell.get_or_init(fresh).clone()
 }
 
 /// Record of a run that completes.

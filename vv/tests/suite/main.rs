@@ -7,6 +7,7 @@ mod checkpoint_rotation;
 mod cli;
 mod common;
 mod convergence;
+mod long_runs;
 mod names;
 mod planar_impact;
 mod report;

@@ -6,9 +6,8 @@ use whipple_solver::method::Preset;
 use whipple_vv::cases::{ALL, Case, Level};
 use whipple_vv::claims::Quantity;
 use whipple_vv::record::{RunKey, Scheme};
-use whipple_vv::run::{Request, Silent, run};
 
-use crate::common::record;
+use crate::common::{beginning, record};
 
 /// Name of the norm that a quantity is made from.
 fn norm_of(quantity: &Quantity) -> Option<&'static str> {
@@ -21,36 +20,26 @@ fn norm_of(quantity: &Quantity) -> Option<&'static str> {
     }
 }
 
-/// Norms that a case gives at its smallest size, by variant.
+/// Norms that a case gives at its smallest size, by variant; in space, where runs are long, after the
+/// beginning.
 fn given(case: &dyn Case) -> BTreeMap<String, BTreeSet<String>> {
-    if case.scene(Preset::Default, "", case.default_size()).space().is_some() {
-        return given_in_space(case);
-    }
     let runs = case.runs(Level::Quick);
+    let in_space = case.scene(Preset::Default, "", case.default_size()).space().is_some();
+    let smallest = runs.iter().map(|k| k.n).min().expect("a run");
     let mut out = BTreeMap::new();
     for variant in case.variants() {
         let default = Scheme::preset(Preset::Default);
         let fits = |k: &&RunKey| k.variant == *variant && k.scheme == default;
-        if let Some(key) = runs.iter().filter(fits).min_by_key(|k| k.n) {
-            out.insert((*variant).to_owned(), record(key).norms.into_keys().collect());
-        }
+        let record = if in_space {
+            beginning(&RunKey::new(case.id(), default, smallest).variant(variant))
+        } else if let Some(key) = runs.iter().filter(fits).min_by_key(|k| k.n) {
+            record(key)
+        } else {
+            continue;
+        };
+        out.insert((*variant).to_owned(), record.norms.into_keys().collect());
     }
     out
-}
-
-/// The same in space, where runs are long: after a hundredth of them.
-fn given_in_space(case: &dyn Case) -> BTreeMap<String, BTreeSet<String>> {
-    let short = |variant: &&str| {
-        let n = case.default_size();
-        let key = RunKey::new(case.id(), Scheme::preset(Preset::Default), n).variant(variant);
-        let mut scene = case.scene(Preset::Default, variant, n);
-        scene.set_stop_time(0.01 * scene.stop_time());
-        let command = String::new();
-        let request = Request { key, scene: Some(scene), threads: 1, command };
-        let record = run(case, request, &Silent).expect("a record").record;
-        ((*variant).to_owned(), record.norms.into_keys().collect())
-    };
-    case.variants().iter().map(short).collect()
 }
 
 /// Every run that a claim needs is made at the full level; all but the largest at the standard one.

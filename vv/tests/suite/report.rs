@@ -128,3 +128,51 @@ fn verdicts_of_a_case() {
     let none = judge(case.claims(), &Records::default());
     assert!(none.iter().all(|v| v.status == Status::Missing), "no record, no verdict");
 }
+
+/// Pictures cannot be drawn again: they are kept as they are, shown, and refused when they are not those
+/// of the record.
+#[test]
+fn pictures_are_kept_and_checked() {
+    let (folder, _) = report();
+    let records = folder.path().join("r/records");
+    let path = records.join("heat-chain_default_n32.json");
+    let whole = std::fs::read_to_string(&path).expect("a record");
+    let mut record: serde_json::Value = serde_json::from_str(&whole).expect("JSON");
+    let files = [("chain.png", b"light".as_slice()), ("chain-dark.png", b"dark")];
+    let [light, dark] = files.map(|(_, bytes)| blake3::hash(bytes).to_hex().to_string());
+    record["pictures"] = serde_json::json!([
+        { "id": "chain", "caption": "A hot chain.", "light": light, "dark": dark }
+    ]);
+    std::fs::write(&path, record.to_string()).expect("a record");
+    let report = |more: &[&str]| said(folder.path(), &[&["report", "--out", "r"], more].concat());
+    let refused = |what: &str| {
+        for more in [&[][..], &["--check"]] {
+            let said = report(more);
+            assert_eq!((said.code, said.out.as_str()), (Some(2), ""));
+            assert!(said.err.contains("chain-dark.png") || said.err.contains("chain.png"));
+            assert!(said.err.contains(what), "{}", said.err);
+            assert!(said.err.contains("whipple run heat-chain"), "it says how to make it again");
+        }
+    };
+    refused("cannot be read");
+    std::fs::create_dir(records.join("pictures")).expect("a folder");
+    for (name, bytes) in files {
+        std::fs::write(records.join("pictures").join(name), bytes).expect("a picture");
+    }
+    assert_eq!(report(&["--check"]).code, Some(1), "it is not in the report yet");
+    assert_eq!(report(&[]).code, Some(0));
+    assert_eq!(report(&["--check"]).code, Some(0));
+    let read = |name: &str| std::fs::read(folder.path().join("r").join(name)).expect("a file");
+    for (name, bytes) in files {
+        assert_eq!(read(&format!("figures/{name}")), bytes);
+    }
+    let [page, text] = ["index.html", "report.md"].map(read);
+    let [page, text] = [page, text].map(|bytes| String::from_utf8(bytes).expect("text"));
+    assert!(page.contains("A hot chain.") && page.contains("data:image/png;base64,"));
+    assert!(text.contains("![A hot chain.](figures/chain.png)"));
+    std::fs::write(folder.path().join("r/figures/chain.png"), "other").expect("a picture");
+    let check = report(&["--check"]);
+    assert_eq!((check.code, check.err.contains("figures/chain.png")), (Some(1), true));
+    std::fs::write(records.join("pictures/chain-dark.png"), "altered").expect("a picture");
+    refused("BLAKE3 is");
+}
