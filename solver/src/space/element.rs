@@ -23,13 +23,6 @@ const CENTRE: usize = 8;
 /// Largest stretch of an element that counts as a volume.
 const TORN: f64 = 4.0;
 
-/// Smallest pyramid, over its reference volume, of an element that counts as a volume.
-const CRUSHED: f64 = 0.2;
-
-/// Thickness, over the shortest edge at the start, below which a sound and a failed element cease to
-/// count as volumes.
-const FLAT: [f64; 2] = [0.2, 0.35];
-
 /// Expansion at which a failed element ceases to count as a volume.
 const OPEN: f64 = 1.2;
 
@@ -559,8 +552,8 @@ impl Group {
             smallest = smallest.min(*o);
             widest = widest.max(*o);
         }
-        let crushed =
-            smallest.lt(F::splat(CRUSHED - 1.0)) | motion.jacobian.lt(F::splat(solid.compression));
+        let crushed = smallest.lt(F::splat(solid.crushed - 1.0))
+            | motion.jacobian.lt(F::splat(solid.compression));
         let tension = (F::splat(1.0) - F::of(self.damage)) * solid.bulk * widest;
         let pulled = tension.gt(F::splat(solid.spall));
         let failing = solid.spent(F::of(self.strain), theta) | crushed | pulled;
@@ -568,7 +561,7 @@ impl Group {
         let stretched = motion.stretch_squared().gt(F::splat(TORN * TORN));
         let open = motion.jacobian.gt(F::splat(OPEN)) & self.failed;
         // Faces come doubled.
-        let [sound, failed] = FLAT.map(|share| (0.5 * share * solid.edge).powi(2));
+        let [sound, failed] = solid.flat.map(|share| (0.5 * share * solid.edge).powi(2));
         let least = F::select(self.failed, F::splat(failed), F::splat(sound));
         let flat = (volume * volume).lt(face * least);
         self.dying = (crushed | stretched | open | flat) & self.live;

@@ -54,6 +54,9 @@ pub struct IdealGas {
 /// straight.
 const LAST: f64 = 0.85;
 
+/// The same of a flat Hugoniot, which has none: a tenth of the volume.
+const TENFOLD: f64 = 0.9;
+
 /// Lowest sound speed over the reference one, squared.
 const LEAST_SOUND: f64 = 0.25;
 
@@ -78,7 +81,7 @@ impl Eos {
                     cold_3: 2.0 / 3.0 * (2.0 * s - 0.5 * gamma_0) + gamma_0 / 3.0,
                     c_v,
                     theta_0,
-                    eta_cap: LAST / s.max(1e-3),
+                    eta_cap: (LAST / s.max(1e-3)).min(TENFOLD),
                 })
             }
             EosData::IdealGas { adiabatic_index, c_v } => {
@@ -189,12 +192,16 @@ mod tests {
     use crate::space::scene::Failure;
 
     fn copper(law: GammaLaw) -> Eos {
+        metal(1.489, law)
+    }
+
+    fn metal(s: f64, law: GammaLaw) -> Eos {
         Eos::new(&Material {
             name: "copper".into(),
             density: 8.93,
             eos: EosData::MieGruneisen {
                 c0: 0.394,
-                s: 1.489,
+                s,
                 gamma_0: 2.02,
                 law,
                 c_v: 0.383e-5,
@@ -251,6 +258,13 @@ mod tests {
     fn the_reference_state_is_exactly_free_of_pressure() {
         let eos = copper(GammaLaw::ConstantProduct);
         assert_eq!(at(&eos, 8.93, 0.0).0, 0.0);
+    }
+
+    #[test]
+    fn a_flat_hugoniot_has_a_sane_pressure() {
+        let eos = metal(0.25, GammaLaw::ConstantProduct);
+        let pressures = [1.0, 1.1, 2.0, 9.0, 11.0, 20.0].map(|x| at(&eos, 8.93 * x, 0.0).0);
+        assert!(pressures[0] == 0.0 && pressures.is_sorted(), "{pressures:?}");
     }
 
     #[test]

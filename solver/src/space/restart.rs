@@ -15,6 +15,7 @@ use super::contacts::Memory;
 use super::lanes::{F8, LANES};
 use super::mesh::Group;
 use super::simulation::Simulation;
+use super::surfaces;
 
 /// A named array.
 #[derive(Debug, Clone, PartialEq)]
@@ -184,8 +185,10 @@ impl Simulation {
             add(name, Values::F64(places));
         }
         add("list.stale", Values::U8(vec![u8::from(contacts.stale)]));
-        let stand = self.surfaces.memory(&self.contacts, self.mesh.len);
-        add("surface.stand", Values::F64(stand));
+        let surfaces = self.surfaces.memory(&self.contacts, self.mesh.len);
+        add("surface.stand", Values::F64(surfaces.stand));
+        add("surface.distance", Values::F64(surfaces.distance));
+        add("surface.face", Values::U64(surfaces.face));
         add("run.clock", Values::F64(self.clock().to_vec()));
         add("run.ledger", Values::F64(self.books().to_vec()));
         add("run.counts", Values::U64(self.counts().to_vec()));
@@ -251,6 +254,12 @@ impl Simulation {
                         return bad(u64::from(value), "every member of the contacts once");
                     }
                 }
+                Values::U64(faces) if name == "surface.face" => {
+                    let nodes = self.mesh.first_centroid;
+                    if let Some(value) = surfaces::Memory::no_face(faces, nodes) {
+                        return bad(value, "corners that there are");
+                    }
+                }
                 Values::U64(counts) => {
                     let piece = counts.last().copied().unwrap_or_default();
                     if piece >= self.mesh.pieces.len() as u64 {
@@ -295,7 +304,12 @@ impl Simulation {
         self.contacts.recall(&self.mesh, &memory, &self.method);
         // The list is that of its time; the members stand where they are now.
         self.contacts.refresh(&self.mesh, &self.state, &self.method);
-        self.surfaces.recall(&self.contacts, from.f64s());
+        let memory = surfaces::Memory {
+            stand: from.f64s().to_vec(),
+            distance: from.f64s().to_vec(),
+            face: from.u64s().to_vec(),
+        };
+        self.surfaces.recall(&self.mesh, &self.contacts, &memory);
         self.set_clock(from.f64s());
         self.set_books(from.f64s());
         self.set_counts(from.u64s());

@@ -8,6 +8,15 @@ use super::scene::{Flow, Material};
 /// A symmetric tensor: 11, 22, 33, 12, 13, 23.
 pub type Sym<F> = [F; 6];
 
+/// Smallest pyramid of an element of a solid, over its reference volume.
+const CRUSHED: f64 = 0.2;
+
+/// Smallest thickness of a sound and of a failed element of a solid, over its shortest edge.
+const FLAT: [f64; 2] = [0.2, 0.35];
+
+/// The same of a gas, which has no largest compression.
+const GAS: f64 = 1e-3;
+
 /// Sweeps of the return map after which it gives up; two are enough nearly always.
 const SWEEPS: usize = 20;
 
@@ -36,6 +45,11 @@ pub struct Solid {
     /// Tensile strength.
     pub spall: f64,
     release: Release,
+    /// Smallest pyramid, over its reference volume, of an element that counts as a volume.
+    pub crushed: f64,
+    /// Thickness, over the shortest edge at the start, below which a sound and a failed element cease
+    /// to count as volumes.
+    pub flat: [f64; 2],
     /// Longitudinal sound speed of the reference state.
     pub sound: f64,
     /// Shortest edge of a cell.
@@ -59,6 +73,8 @@ impl Solid {
             compression: material.failure.compression,
             spall: or_never(material.failure.spall.filter(|_| method.spall)),
             release: method.release,
+            crushed: if bulk > 0.0 { CRUSHED } else { GAS },
+            flat: if bulk > 0.0 { FLAT } else { [GAS; 2] },
             sound: ((bulk + 4.0 / 3.0 * mu) / material.density).sqrt(),
             edge: lattice.size.iter().copied().fold(f64::INFINITY, f64::min),
         }

@@ -10,7 +10,7 @@
 use super::columns::{Derived, State, Sums};
 use super::contacts::{Contacts, Member, steepness};
 use super::lattice::NONE;
-use super::mesh::Mesh;
+use super::mesh::{Body, Mesh};
 use super::method::Method;
 
 /// Distance at which a surface is felt, in edges of cells.
@@ -106,6 +106,29 @@ struct Spring {
 }
 
 impl Spring {
+    /// Of a member on a face of another body, to be seen yet.
+    fn new(mesh: &Mesh, (member, one): (usize, &Member), other: usize, face: Face) -> Self {
+        let own = &mesh.bodies[one.body];
+        let soft = |body: &Body| 1.0 / (body.rho_0 * body.solid.sound.powi(2));
+        let series = 1.0 / (soft(own) + soft(&mesh.bodies[other]));
+        Self {
+            member,
+            particle: one.particle,
+            body: one.body,
+            other,
+            face,
+            share: [0.0; 4],
+            way: [0.0; 3],
+            distance: f64::INFINITY,
+            stand: 0.0,
+            // A node of a flat surface has a quarter of a cell.
+            area: 4.0 * mesh.mass[one.particle] / (own.rho_0 * own.edge()),
+            stiffness: STIFFNESS * own.edge() * series,
+            force: 0.0,
+            drag: 0.0,
+        }
+    }
+
     fn energy(&self) -> f64 {
         self.area * self.stiffness * Law::energy(self.distance / self.stand)
     }
@@ -125,6 +148,29 @@ impl Spring {
     fn shares(&self) -> impl Iterator<Item = (usize, f64)> {
         let corners = self.face.nodes.into_iter().zip(self.share.map(|share| -share));
         std::iter::once((self.particle, 1.0)).chain(corners)
+    }
+}
+
+/// Lower half of a number.
+const HALF: u64 = 0xffff_ffff;
+
+/// What surfaces keep from step to step, particle by particle.
+pub(super) struct Memory {
+    /// Distance at which the particle feels a surface.
+    pub(super) stand: Vec<f64>,
+    /// Distance of the surface when it was last looked at.
+    pub(super) distance: Vec<f64>,
+    /// Corners of the face, two in a number, two numbers a particle; all bits set for none.
+    pub(super) face: Vec<u64>,
+}
+
+impl Memory {
+    /// The first face of particles that are none.
+    pub(super) fn no_face(face: &[u64], nodes: usize) -> Option<u64> {
+        let none = |pair: u64| pair >> 32 >= nodes as u64 || pair & HALF >= nodes as u64;
+        let whole = |pairs: &[u64; 2]| pairs.iter().all(|&pair| pair == u64::MAX);
+        let bad = |pairs: &&[u64; 2]| !whole(pairs) && pairs.iter().any(|&pair| none(pair));
+        face.as_chunks().0.iter().find(bad).map(|pairs| pairs[0])
     }
 }
 
@@ -162,16 +208,43 @@ impl Surfaces {
         })
     }
 
-    /// What each particle's member remembers, for a restart.
-    pub(super) fn memory(&self, contacts: &Contacts, particles: usize) -> Vec<f64> {
-        let at = |i: usize| contacts.find(i).and_then(|member| self.stand.get(member));
-        (0..particles).map(|i| at(i).copied().unwrap_or(0.0)).collect()
+    /// What must outlast a restart.
+    pub(super) fn memory(&self, contacts: &Contacts, particles: usize) -> Memory {
+        let mut memory = Memory {
+            stand: vec![0.0; particles],
+            distance: vec![0.0; particles],
+            face: vec![u64::MAX; 2 * particles],
+        };
+        for (member, &stand) in self.stand.iter().enumerate() {
+            memory.stand[contacts.member(member).particle] = stand;
+        }
+        for spring in &self.springs {
+            let [a, b, c, d] = spring.face.nodes.map(|node| node as u64);
+            memory.distance[spring.particle] = spring.distance;
+            memory.face[2 * spring.particle] = a << 32 | b;
+            memory.face[2 * spring.particle + 1] = c << 32 | d;
+        }
+        memory
     }
 
     /// Takes it back.
-    pub(super) fn recall(&mut self, contacts: &Contacts, memory: &[f64]) {
+    pub(super) fn recall(&mut self, mesh: &Mesh, contacts: &Contacts, memory: &Memory) {
         self.stand.clear();
-        self.stand.extend((0..contacts.members()).map(|at| memory[contacts.member(at).particle]));
+        self.springs.clear();
+        for member in 0..contacts.members() {
+            let one = contacts.member(member);
+            let (i, stand) = (one.particle, memory.stand[one.particle]);
+            self.stand.push(stand);
+            let [low, high] = [memory.face[2 * i], memory.face[2 * i + 1]];
+            if low != u64::MAX {
+                let nodes = [low >> 32, low & HALF, high >> 32, high & HALF];
+                let nodes = nodes.map(|node| node as usize);
+                let other = mesh.place(nodes[0]).0;
+                let mut spring = Spring::new(mesh, (member, &one), other, Face { nodes });
+                (spring.stand, spring.distance) = (stand, memory.distance[i]);
+                self.springs.push(spring);
+            }
+        }
     }
 
     /// Forces on particles and surfaces, and the marks of touched particles. Returns the inverse of
@@ -245,6 +318,7 @@ impl Surfaces {
                 begin(spring);
             }
             let same = new.next_if(|spring| spring.member == old.member);
+            let pressed = old.distance < old.stand;
             let known = old.see(contacts);
             if let Some(spring) = same {
                 if known && spring.distance >= JUMP * old.distance {
@@ -252,7 +326,7 @@ impl Surfaces {
                 }
                 begin(spring);
             }
-            if known && old.force > 0.0 {
+            if known && pressed {
                 let energy = old.energy();
                 old.shares().for_each(|(i, share)| give(i, 0.5 * share.abs() * energy));
                 heat += energy;
@@ -382,29 +456,9 @@ fn nearest_face(
     one: &Member,
     node: &Member,
 ) -> Option<Spring> {
-    let soft = |body: usize| mesh.bodies[body].rho_0 * mesh.bodies[body].solid.sound.powi(2);
-    let edge = mesh.bodies[one.body].edge();
-    let volume = mesh.mass[one.particle] / mesh.bodies[one.body].rho_0;
-    // A node of a flat surface has a quarter of a cell.
-    let area = 4.0 * volume / edge;
-    let series = 1.0 / (1.0 / soft(one.body) + 1.0 / soft(node.body));
     let mut best: Option<Spring> = None;
     each_face(mesh, node.body, node.place, |face| {
-        let mut spring = Spring {
-            member,
-            particle: one.particle,
-            body: one.body,
-            other: node.body,
-            face,
-            share: [0.0; 4],
-            way: [0.0; 3],
-            distance: f64::INFINITY,
-            stand: 0.0,
-            area,
-            stiffness: STIFFNESS * edge * series,
-            force: 0.0,
-            drag: 0.0,
-        };
+        let mut spring = Spring::new(mesh, (member, one), node.body, face);
         if spring.see(contacts) && best.as_ref().is_none_or(|best| spring.distance < best.distance)
         {
             best = Some(spring);

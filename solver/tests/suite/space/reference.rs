@@ -837,7 +837,7 @@ impl Plain {
             let now = self.springs.iter().find(|s| s.particle == old.particle);
             if now.is_some_and(|now| now.z * now.stand >= 0.8 * was.z) {
                 slid.push(old.particle);
-            } else if old.force > 0.0 {
+            } else if old.z < 1.0 {
                 was.stand = old.stand;
                 was.z /= was.stand;
                 let energy = was.energy();
@@ -871,6 +871,7 @@ impl Plain {
             if s.z >= 1.0 {
                 continue;
             }
+            self.touches += 1;
             let deep = s.z.max(0.2);
             let force = s.stiffness * 0.5 * (1.0 / (deep * deep) - 1.0) / s.stand;
             let mut drag = 0.0;
