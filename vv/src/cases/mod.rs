@@ -5,6 +5,7 @@
 
 mod block_collision;
 mod einfeldt;
+mod elastic_plastic_piston;
 mod galilean_boost;
 mod gas;
 mod heat_chain;
@@ -12,6 +13,7 @@ mod kolsky;
 mod leblanc;
 mod long_rod;
 mod noh;
+mod parts;
 mod planar_impact;
 mod sod;
 mod strong_shock_tube;
@@ -149,7 +151,7 @@ pub trait Case: Sync {
 }
 
 /// All cases, in the order of the report.
-pub const ALL: [&dyn Case; 16] = [
+pub const ALL: [&dyn Case; 17] = [
     &noh::Noh,
     &kolsky::Kolsky,
     &uniform_collapse::CASE,
@@ -165,6 +167,7 @@ pub const ALL: [&dyn Case; 16] = [
     &block_collision::BlockCollision,
     &heat_chain::HeatChain,
     &planar_impact::PlanarImpact,
+    &elastic_plastic_piston::ElasticPlasticPiston,
     &long_rod::LongRod,
 ];
 

@@ -10,6 +10,7 @@ mod convergence;
 mod names;
 mod planar_impact;
 mod report;
+mod solids;
 mod space_output;
 mod tables;
 mod vtk;

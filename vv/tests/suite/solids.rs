@@ -1,0 +1,32 @@
+//! Solids in three dimensions: the waves of a column with strength.
+
+use whipple_solver::method::Preset;
+use whipple_vv::claims::order;
+
+use crate::common::{completed, key, norm};
+
+/// Both fronts keep their number of cells, so that the L1 error falls with the cell; precursor and
+/// plastic wave are those of the exact solution.
+#[test]
+fn elastic_plastic_waves_converge_with_first_order() {
+    let runs = [40, 80, 160].map(|n| completed(&key("elastic-plastic-piston", Preset::Default, n)));
+    let fit = order(&runs.each_ref(), "velocity_l1").expect("three sizes");
+    assert!((fit.order - 1.0).abs() < 0.25, "{}", fit.order);
+    let finest = &runs[2];
+    for name in ["precursor_error", "precursor_speed_error", "plastic_speed_error", "stress_error"]
+    {
+        assert!(finest.norms[name].abs() < 0.01, "{name}: {}", finest.norms[name]);
+    }
+    assert!(finest.energy_drift < 1e-12 && finest.momentum_drift < 1e-12);
+}
+
+/// The precursor tells the readings of the yield stress apart, each by its own exact solution.
+#[test]
+fn the_precursor_shows_the_reading_of_the_yield_stress() {
+    let levels = ["", "j2", "as-printed"].map(|variant| {
+        let key = key("elastic-plastic-piston", Preset::Default, 80).variant(variant);
+        assert!(norm(&key, "precursor_error").abs() < 0.03, "{variant}");
+        norm(&key, "precursor_m_s")
+    });
+    assert!(levels[1] > 1.6 * levels[0] && levels[2] > 1.15 * levels[1], "{levels:?}");
+}
