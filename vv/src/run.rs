@@ -213,6 +213,17 @@ impl<'a> SpaceDriver<'a> {
         })
     }
 
+    /// Changes the simulation before its first step: a state that no scene states.
+    ///
+    /// # Errors
+    /// Those of the change.
+    pub fn prepare(
+        &mut self,
+        change: impl FnOnce(&mut space::Simulation) -> Result<(), RunError>,
+    ) -> Result<(), RunError> {
+        change(&mut self.solver)
+    }
+
     /// Steps to `time`, on the clock.
     ///
     /// # Errors

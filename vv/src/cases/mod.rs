@@ -10,6 +10,7 @@ mod galilean_boost;
 mod gas;
 mod heat_chain;
 mod kolsky;
+mod lattice_kinematics;
 mod leblanc;
 mod long_rod;
 mod noh;
@@ -151,7 +152,7 @@ pub trait Case: Sync {
 }
 
 /// All cases, in the order of the report.
-pub const ALL: [&dyn Case; 17] = [
+pub const ALL: [&dyn Case; 18] = [
     &noh::Noh,
     &kolsky::Kolsky,
     &uniform_collapse::CASE,
@@ -166,6 +167,7 @@ pub const ALL: [&dyn Case; 17] = [
     &galilean_boost::GalileanBoost,
     &block_collision::BlockCollision,
     &heat_chain::HeatChain,
+    &lattice_kinematics::LatticeKinematics,
     &planar_impact::PlanarImpact,
     &elastic_plastic_piston::ElasticPlasticPiston,
     &long_rod::LongRod,

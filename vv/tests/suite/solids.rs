@@ -1,4 +1,4 @@
-//! Solids in three dimensions: the waves of a column with strength.
+//! Solids in three dimensions: the waves of a column with strength, and the density of a lattice.
 
 use whipple_solver::method::Preset;
 use whipple_vv::claims::order;
@@ -29,4 +29,14 @@ fn the_precursor_shows_the_reading_of_the_yield_stress() {
         norm(&key, "precursor_m_s")
     });
     assert!(levels[1] > 1.6 * levels[0] && levels[2] > 1.15 * levels[1], "{levels:?}");
+}
+
+/// Pyramids give 1/J on every path, contacts what the rule gives on an infinite lattice.
+#[test]
+fn densities_of_a_deformed_lattice_are_those_of_their_rule() {
+    for variant in ["", "uniform", "shear", "upset"] {
+        let key = |preset| key("lattice-kinematics", preset, 8).variant(variant);
+        assert!(norm(&key(Preset::Default), "largest_error") < 1e-5, "{variant}");
+        assert!(norm(&key(Preset::Paper), "rule_error").abs() < 3e-3, "{variant}");
+    }
 }

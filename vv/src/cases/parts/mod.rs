@@ -2,6 +2,7 @@
 
 pub(super) mod fit;
 pub(super) mod metals;
+pub(super) mod motion;
 pub(super) mod planes;
 
 use std::collections::BTreeMap;
