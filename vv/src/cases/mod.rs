@@ -18,6 +18,7 @@ mod parts;
 mod planar_impact;
 mod sod;
 mod strong_shock_tube;
+mod taylor;
 mod two_stream_noh;
 mod unequal_masses;
 mod uniform_collapse;
@@ -152,7 +153,7 @@ pub trait Case: Sync {
 }
 
 /// All cases, in the order of the report.
-pub const ALL: [&dyn Case; 18] = [
+pub const ALL: [&dyn Case; 20] = [
     &noh::Noh,
     &kolsky::Kolsky,
     &uniform_collapse::CASE,
@@ -170,6 +171,8 @@ pub const ALL: [&dyn Case; 18] = [
     &lattice_kinematics::LatticeKinematics,
     &planar_impact::PlanarImpact,
     &elastic_plastic_piston::ElasticPlasticPiston,
+    &taylor::COPPER_ROD,
+    &taylor::STEEL_ROD,
     &long_rod::LongRod,
 ];
 

@@ -1,5 +1,6 @@
 //! What cases in space share: metals, walls, bodies, averages over planes, initial motions.
 
+pub(super) mod discs;
 pub(super) mod fit;
 pub(super) mod metals;
 pub(super) mod motion;
@@ -56,6 +57,11 @@ impl Columns {
         for (name, value) in entries {
             self.0.entry(name.into()).or_default().push(value);
         }
+    }
+
+    /// A column so far.
+    pub(super) fn column(&self, name: &str) -> &[f64] {
+        self.0.get(name).map_or(&[], Vec::as_slice)
     }
 
     /// All of them.
