@@ -6,6 +6,7 @@
 mod block_collision;
 mod einfeldt;
 mod elastic_plastic_piston;
+mod free_surface;
 mod galilean_boost;
 mod gas;
 mod heat_chain;
@@ -17,6 +18,7 @@ mod noh;
 mod parts;
 mod planar_impact;
 mod sod;
+mod spall;
 mod strong_shock_tube;
 mod taylor;
 mod two_stream_noh;
@@ -153,7 +155,7 @@ pub trait Case: Sync {
 }
 
 /// All cases, in the order of the report.
-pub const ALL: [&dyn Case; 20] = [
+pub const ALL: [&dyn Case; 22] = [
     &noh::Noh,
     &kolsky::Kolsky,
     &uniform_collapse::CASE,
@@ -171,6 +173,8 @@ pub const ALL: [&dyn Case; 20] = [
     &lattice_kinematics::LatticeKinematics,
     &planar_impact::PlanarImpact,
     &elastic_plastic_piston::ElasticPlasticPiston,
+    &free_surface::FreeSurface,
+    &spall::Spall,
     &taylor::COPPER_ROD,
     &taylor::STEEL_ROD,
     &long_rod::LongRod,

@@ -3,6 +3,7 @@
 use whipple_solver::space::scene::{EosData, Failure, GammaLaw, Material};
 
 use crate::exact::InputError;
+use crate::exact::gruneisen::MieGruneisen;
 use crate::exact::hugoniot::Hugoniot;
 
 /// A metal: density, `c0`, `s`, Grueneisen's constant, `c_v`.
@@ -34,9 +35,24 @@ impl Metal {
         }
     }
 
+    /// Density of the reference state.
+    pub(in crate::cases) fn density(&self) -> f64 {
+        self.constants[0]
+    }
+
+    /// Bulk sound speed of the reference state.
+    pub(in crate::cases) fn sound(&self) -> f64 {
+        self.constants[1]
+    }
+
     /// Its Hugoniot.
     pub(in crate::cases) fn hugoniot(&self) -> Result<Hugoniot, InputError> {
         let [density, c0, s, ..] = self.constants;
         Hugoniot::new(density, c0, s)
+    }
+
+    /// Its equation of state.
+    pub(in crate::cases) fn gruneisen(&self) -> Result<MieGruneisen, InputError> {
+        MieGruneisen::constant_product(self.hugoniot()?, self.constants[3])
     }
 }
