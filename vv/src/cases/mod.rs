@@ -3,6 +3,7 @@
 //! A case says what is to be simulated, what is measured, and what is claimed of it. It knows
 //! nothing of files, pages or the command line.
 
+mod beam;
 mod block_collision;
 mod einfeldt;
 mod elastic_plastic_piston;
@@ -19,6 +20,7 @@ mod parts;
 mod planar_impact;
 mod sod;
 mod spall;
+mod spinning_block;
 mod strong_shock_tube;
 mod taylor;
 mod two_stream_noh;
@@ -155,7 +157,7 @@ pub trait Case: Sync {
 }
 
 /// All cases, in the order of the report.
-pub const ALL: [&dyn Case; 22] = [
+pub const ALL: [&dyn Case; 24] = [
     &noh::Noh,
     &kolsky::Kolsky,
     &uniform_collapse::CASE,
@@ -175,6 +177,8 @@ pub const ALL: [&dyn Case; 22] = [
     &elastic_plastic_piston::ElasticPlasticPiston,
     &free_surface::FreeSurface,
     &spall::Spall,
+    &spinning_block::SpinningBlock,
+    &beam::Beam,
     &taylor::COPPER_ROD,
     &taylor::STEEL_ROD,
     &long_rod::LongRod,

@@ -3,6 +3,7 @@
 pub(super) mod discs;
 pub(super) mod fit;
 pub(super) mod metals;
+pub(super) mod modes;
 pub(super) mod motion;
 pub(super) mod planes;
 
