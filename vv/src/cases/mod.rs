@@ -16,8 +16,10 @@ mod lattice_kinematics;
 mod leblanc;
 mod long_rod;
 mod noh;
+mod noh_space;
 mod parts;
 mod planar_impact;
+mod sedov;
 mod sod;
 mod spall;
 mod spinning_block;
@@ -157,7 +159,7 @@ pub trait Case: Sync {
 }
 
 /// All cases, in the order of the report.
-pub const ALL: [&dyn Case; 24] = [
+pub const ALL: [&dyn Case; 26] = [
     &noh::Noh,
     &kolsky::Kolsky,
     &uniform_collapse::CASE,
@@ -179,6 +181,8 @@ pub const ALL: [&dyn Case; 24] = [
     &spall::Spall,
     &spinning_block::SpinningBlock,
     &beam::Beam,
+    &noh_space::NohSpace,
+    &sedov::Sedov,
     &taylor::COPPER_ROD,
     &taylor::STEEL_ROD,
     &long_rod::LongRod,

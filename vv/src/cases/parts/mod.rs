@@ -6,6 +6,7 @@ pub(super) mod metals;
 pub(super) mod modes;
 pub(super) mod motion;
 pub(super) mod planes;
+pub(super) mod shells;
 
 use std::collections::BTreeMap;
 

@@ -49,6 +49,32 @@ pub(in crate::cases) fn start(
     settle(simulation, sections)
 }
 
+/// Gives particles of a new simulation of one ideal gas the energies per mass that `energy` says.
+///
+/// # Errors
+/// Sections that the simulation refuses.
+pub(in crate::cases) fn heat(
+    simulation: &mut Simulation,
+    [adiabatic_index, c_v]: [f64; 2],
+    energy: impl Fn(&Particle) -> f64,
+) -> Result<(), RunError> {
+    let hot: Vec<(Particle, f64)> = simulation.all_particles().map(|p| (p, energy(&p))).collect();
+    let mut sections = simulation.sections();
+    let mut set = |name: &str, value: &dyn Fn(&Particle, f64) -> f64| {
+        with(&mut sections, name, |column| {
+            hot.iter().for_each(|(p, u)| column[p.id as usize] = value(p, *u));
+        });
+    };
+    let pressure = |p: &Particle, u: f64| (adiabatic_index - 1.0) * p.rho * u;
+    set("state.u", &|_, u| u);
+    set("derived.pressure", &pressure);
+    // At the start particles fill their shares of the elements.
+    set("derived.grip", &pressure);
+    set("derived.theta", &|_, u| u / c_v);
+    set("derived.sound", &|_, u| (adiabatic_index * (adiabatic_index - 1.0) * u).sqrt());
+    settle(simulation, sections)
+}
+
 /// Restores the sections with everything awake, and books what is there now as the initial holdings.
 fn settle(simulation: &mut Simulation, mut sections: Vec<Section>) -> Result<(), RunError> {
     for section in &mut sections {
