@@ -394,7 +394,9 @@ fn in_space(
     record.energy_drift = driver.worst.energy;
     record.momentum_drift = driver.worst.momentum;
     record.counters = Some(counters);
-    record.space = Some(SpaceRecord {
+    // A state that is no number has no balance, and a record of one could not be read.
+    let sound = balance.energy_drift().is_finite() && balance.momentum_drift().is_finite();
+    record.space = sound.then(|| SpaceRecord {
         particles: solver.particles(),
         elements: solver.elements(),
         failed_elements,
