@@ -28,7 +28,9 @@ const DENSITY: f64 = 7.83;
 /// Initial angular velocity of the half beam, 1/us: 1 m/s at its ends.
 const SPIN: f64 = 8e-5;
 /// Entries of the history in a period, and periods.
-const PER_PERIOD: usize = 20;
+const PER_PERIOD: usize = 60;
+/// Every so many of them are fitted.
+const FITTED: usize = 3;
 const PERIODS: f64 = 1.5;
 /// Cells through the height.
 const SIZES: [usize; 3] = [2, 4, 8];
@@ -141,8 +143,10 @@ impl Case for Beam {
                 ("heat", balance.now.internal / balance.initial.kinetic),
             ]);
         }
-        let step = scene.stop_time / entries as f64;
-        let (frequency, decay) = oscillation(history.column("deflection"), step);
+        let step = FITTED as f64 * scene.stop_time / entries as f64;
+        let fitted: Vec<f64> =
+            history.column("deflection").iter().copied().step_by(FITTED).collect();
+        let (frequency, decay) = oscillation(&fitted, step);
         let wanted = beam.timoshenko_free(1)?;
         let mut findings = Findings::default();
         let mut enter = |name: &str, value: f64| findings.norms.insert(name.into(), value);

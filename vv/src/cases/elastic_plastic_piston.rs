@@ -266,12 +266,15 @@ impl Case for ElasticPlasticPiston {
                 ));
             }
         }
-        let order = Claims { source: "the fronts keep their number of cells", ..must };
+        // Precursor and weak plastic wave hardly steepen: they spread as linear waves do.
+        let source =
+            "a linear wave under a viscosity of first order: width goes with the root of the cell";
+        let order = Claims { source, ..must };
         let keys = SIZES.map(|n| default_key("", n));
         out.push(order.claim(
             "order of the L1 error of the velocity, mises",
             Quantity::Order(keys.to_vec(), "velocity_l1"),
-            Wanted::Around(1.0, 0.25),
+            Wanted::Around(0.5, 0.25),
         ));
         out.extend(super::conservation_in_space(ID, &default_key("", SIZES[2])));
         out

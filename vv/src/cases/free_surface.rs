@@ -220,8 +220,8 @@ impl Case for FreeSurface {
     fn figures(&self, records: &Records) -> Vec<Figure> {
         let axes =
             || (Axis::linear("time / breakout").range(0.9, 1.5), Axis::linear("velocity / exact"));
-        let mut by_speed = Panel::new("80 cells", axes().0, axes().1);
-        let mut by_size = Panel::new("copper, 1 km/s", axes().0, axes().1);
+        let mut by_speed = Panel::new("", axes().0, axes().1);
+        let mut by_size = Panel::new("", axes().0, axes().1);
         let mut any = false;
         let points = |key: &RunKey| {
             let history = records.get(key)?.history.as_ref()?;
@@ -242,10 +242,16 @@ impl Case for FreeSurface {
         if let Some(points) = points(&paper) {
             by_size = by_size.with(Curve::line("paper, 80 cells", points));
         }
-        let caption = "Velocity of the free surface over that of the release isentrope.";
+        if !any {
+            return Vec::new();
+        }
         let line = || Layer::horizontal(1.0, "release isentrope");
-        let panels = vec![by_speed.with(line()), by_size.with(line())];
-        if any { vec![Figure::new("free-surface-velocity", caption, panels)] } else { Vec::new() }
+        let figure = |id: &str, caption: &str, panel: Panel| {
+            Figure::new(format!("free-surface-{id}"), caption, vec![panel.with(line())])
+        };
+        let speeds = "Velocity of the free surface over that of the release isentrope, 80 cells.";
+        let sizes = "The same for copper at 1 km/s, by the number of cells.";
+        vec![figure("speeds", speeds, by_speed), figure("sizes", sizes, by_size)]
     }
 
     fn draws(&self, _: &RunKey) -> bool {

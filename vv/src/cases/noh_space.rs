@@ -39,7 +39,7 @@ const CYLINDRICAL: &str = "cylindrical";
 const SPHERICAL: &str = "spherical";
 const VARIANTS: [&str; 3] = ["", CYLINDRICAL, SPHERICAL];
 /// Cells along the unit of length.
-const SIZES: [usize; 3] = [16, 24, 32];
+const SIZES: [usize; 3] = [8, 12, 16];
 
 fn geometry(variant: &str) -> Geometry {
     match variant {
@@ -94,7 +94,7 @@ impl Case for NohSpace {
     }
 
     fn default_size(&self) -> usize {
-        SIZES[1]
+        SIZES[2]
     }
 
     fn scene(&self, preset: Preset, variant: &str, n: usize) -> AnyScene {

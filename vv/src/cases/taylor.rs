@@ -27,7 +27,7 @@ pub(super) struct Taylor {
     /// Final length in cm, foot radius in cm and where they come from.
     wanted: [f64; 2],
     reference: &'static str,
-    sizes: [usize; 3],
+    variants: &'static [&'static str],
 }
 
 const COPPER: &str = "taylor-copper";
@@ -36,6 +36,8 @@ const STEEL: &str = "taylor-42crmo4";
 const STOP: f64 = 80.0;
 /// Entries of the histories.
 const ENTRIES: usize = 160;
+/// Cells across.
+const SIZES: [usize; 2] = [8, 12];
 const HALF: &str = "viscosity-half";
 const TWICE: &str = "viscosity-twice";
 const VARIANTS: [&str; 3] = ["", HALF, TWICE];
@@ -62,7 +64,7 @@ pub(super) const COPPER_ROD: Taylor = Taylor {
     material: copper,
     wanted: [1.62, 0.675],
     reference: "experiment, recalled",
-    sizes: [8, 10, 12],
+    variants: &VARIANTS,
 };
 
 /// The steel rod of the codes.
@@ -83,7 +85,7 @@ pub(super) const STEEL_ROD: Taylor = Taylor {
     material: steel,
     wanted: [2.65, 0.558],
     reference: "DynELA and Abaqus",
-    sizes: [8, 10, 12],
+    variants: &[""],
 };
 
 fn copper() -> Material {
@@ -189,11 +191,11 @@ impl Case for Taylor {
     }
 
     fn variants(&self) -> &'static [&'static str] {
-        &VARIANTS
+        self.variants
     }
 
     fn default_size(&self) -> usize {
-        self.sizes[0]
+        SIZES[0]
     }
 
     fn scene(&self, preset: Preset, variant: &str, n: usize) -> AnyScene {
@@ -274,22 +276,23 @@ impl Case for Taylor {
     }
 
     fn runs(&self, level: Level) -> Vec<RunKey> {
-        let mut keys = vec![self.default_key(self.sizes[0])];
+        let mut keys = vec![self.default_key(SIZES[0])];
         if level >= Level::Standard {
-            keys.extend([HALF, TWICE].map(|v| self.default_key(self.sizes[0]).variant(v)));
-            keys.extend(self.sizes[1..].iter().map(|&n| self.default_key(n)));
-            keys.push(self.key(Preset::Paper, self.sizes[0]));
+            let others = self.variants[1..].iter();
+            keys.extend(others.map(|v| self.default_key(SIZES[0]).variant(v)));
+            keys.push(self.default_key(SIZES[1]));
+            keys.push(self.key(Preset::Paper, SIZES[0]));
         }
         keys
     }
 
     fn claims(&self) -> Vec<Claim> {
         let mut out = Vec::new();
-        let plain = || self.default_key(self.sizes[0]);
+        let plain = || self.default_key(SIZES[0]);
         let issue = Claims::new(self.id, Kind::Verification, Weight::Must, "issue");
         if self.id == COPPER {
             let others = [
-                ("12 against 8 cells across", self.default_key(self.sizes[2])),
+                ("12 against 8 cells across", self.default_key(SIZES[1])),
                 ("half the viscosity", plain().variant(HALF)),
                 ("twice the viscosity", plain().variant(TWICE)),
             ];
@@ -305,7 +308,7 @@ impl Case for Taylor {
         let aim = Claims::new(self.id, Kind::Validation, Weight::Aim, self.reference);
         let codes = Claims { kind: Kind::Comparison, weight: Weight::Must, ..aim };
         let (claims, share) = if self.id == COPPER { (aim, 0.05) } else { (codes, 0.02) };
-        for n in self.sizes {
+        for n in SIZES {
             let names = [("length_mm", "final length"), ("foot_radius_mm", "foot radius")];
             for ((name, text), wanted) in names.into_iter().zip(self.wanted) {
                 out.push(claims.claim(
@@ -344,8 +347,8 @@ impl Case for Taylor {
             ("height, mm", "radius, mm"),
         ]
         .map(|(x, y)| Panel::new("", Axis::linear(x), Axis::linear(y)));
-        let defaults = self.sizes.map(|n| (format!("default, n = {n}"), self.default_key(n)));
-        let paper = [("paper".to_owned(), self.key(Preset::Paper, self.sizes[0]))];
+        let defaults = SIZES.map(|n| (format!("default, n = {n}"), self.default_key(n)));
+        let paper = [("paper".to_owned(), self.key(Preset::Paper, SIZES[0]))];
         let mut any = false;
         for (name, key) in defaults.into_iter().chain(paper) {
             let Some(record) = records.get(&key) else { continue };
