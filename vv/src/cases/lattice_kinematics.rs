@@ -18,7 +18,7 @@ use crate::scene::AnyScene;
 pub(super) struct LatticeKinematics;
 
 const ID: &str = "lattice-kinematics";
-/// Steps of a path at least.
+/// Steps of a whole path at least.
 const STEPS: usize = 400;
 /// Half of the part of the block, of edge 1, whose particles are looked at: its surface is left out.
 const INSIDE: f64 = 0.26;
@@ -177,8 +177,10 @@ impl Case for LatticeKinematics {
             .collect();
         let mut history = Columns::default();
         let mut worst = 0.0_f64;
-        for k in 0..=STEPS {
-            let time = scene.stop_time * k as f64 / STEPS as f64;
+        // A run that is cut short takes no shorter steps.
+        let steps = (STEPS as f64 * scene.stop_time).ceil() as usize;
+        for k in 0..=steps {
+            let time = scene.stop_time * k as f64 / steps as f64;
             driver.advance_to(time)?;
             let exact = jacobian(&key.variant, time).recip();
             let (mean, _) = moments(&densities(driver.solver(), &starts));

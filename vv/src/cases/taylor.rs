@@ -10,7 +10,7 @@ use whipple_solver::units::Units;
 use super::parts::discs::{Discs, Rod};
 use super::parts::{Columns, moments, resting};
 use super::{Case, Claim, Claims, Kind, Level, Quantity, Wanted, Weight};
-use crate::plots::{Axis, Figure, Layer, Panel, Series as Curve};
+use crate::plots::{Along, Axis, Figure, Layer, Panel, Series as Curve};
 use crate::record::{Records, RunKey, Scheme};
 use crate::run::{Findings, RunError, SpaceDriver};
 use crate::scene::AnyScene;
@@ -27,6 +27,8 @@ pub(super) struct Taylor {
     /// Final length in cm, foot radius in cm and where they come from.
     wanted: [f64; 2],
     reference: &'static str,
+    /// How far from them is near enough, relative to them.
+    share: f64,
     variants: &'static [&'static str],
 }
 
@@ -64,6 +66,7 @@ pub(super) const COPPER_ROD: Taylor = Taylor {
     material: copper,
     wanted: [1.62, 0.675],
     reference: "experiment, recalled",
+    share: 0.05,
     variants: &VARIANTS,
 };
 
@@ -84,7 +87,8 @@ pub(super) const STEEL_ROD: Taylor = Taylor {
     rod: [0.64, 3.24, 0.0287],
     material: steel,
     wanted: [2.65, 0.558],
-    reference: "DynELA and Abaqus",
+    reference: "DynELA, Abaqus",
+    share: 0.02,
     variants: &[""],
 };
 
@@ -307,14 +311,14 @@ impl Case for Taylor {
         }
         let aim = Claims::new(self.id, Kind::Validation, Weight::Aim, self.reference);
         let codes = Claims { kind: Kind::Comparison, weight: Weight::Must, ..aim };
-        let (claims, share) = if self.id == COPPER { (aim, 0.05) } else { (codes, 0.02) };
+        let claims = if self.id == COPPER { aim } else { codes };
         for n in SIZES {
             let names = [("length_mm", "final length"), ("foot_radius_mm", "foot radius")];
             for ((name, text), wanted) in names.into_iter().zip(self.wanted) {
                 out.push(claims.claim(
                     format!("{text} in mm, n = {n}, `default`"),
                     Quantity::Norm(self.default_key(n), name),
-                    Wanted::Near(MM * wanted, share),
+                    Wanted::Near(MM * wanted, self.share),
                 ));
             }
         }
@@ -360,8 +364,14 @@ impl Case for Taylor {
             foot = foot.with(Curve::line(&name, history.points("time", "foot")));
             shape = shape.with(Curve::line(&name, profile.points("height", "radius")));
         }
-        length = length.with(Layer::horizontal(MM * self.wanted[0], self.reference));
-        foot = foot.with(Layer::horizontal(MM * self.wanted[1], self.reference));
+        let [length, foot] = [(length, 0), (foot, 1)].map(|(panel, k)| {
+            let wanted = MM * self.wanted[k];
+            panel.with(Layer::Span {
+                along: Along::Horizontal,
+                limits: (wanted * (1.0 - self.share), wanted * (1.0 + self.share)),
+                name: format!("{}, ± {} %", self.reference, 100.0 * self.share),
+            })
+        });
         let caption = "Length, foot radius, and final shape: radii of the discs with the area of the \
                        sections.";
         let figure = Figure::new(format!("{}-shape", self.id), caption, vec![length, foot, shape]);

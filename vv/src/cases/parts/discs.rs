@@ -7,7 +7,7 @@ use whipple_solver::space::Simulation;
 /// A section through the nodes of one plane of the undeformed lattice.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(in crate::cases) struct Section {
-    /// Mean position along the axis.
+    /// Mean height above the lowest node of a live element.
     pub(in crate::cases) height: f64,
     /// Radius of the disc of the same area, of faces of live elements alone.
     pub(in crate::cases) left: f64,
@@ -97,7 +97,7 @@ impl Discs {
                 sums[layer + 1].add(element.live, areas[1], &corners[1]);
             }
         }
-        let sections = sums.into_iter().map(Sum::section).collect();
+        let sections = sums.into_iter().map(|sum| sum.section(low)).collect();
         Rod { length: high - low, reach, sections }
     }
 }
@@ -121,10 +121,10 @@ impl Sum {
         }
     }
 
-    fn section(self) -> Section {
+    fn section(self, low: f64) -> Section {
         let radius = |area: f64| (area / PI).sqrt();
         Section {
-            height: self.height / self.count,
+            height: self.height / self.count - low,
             left: radius(self.left),
             radius: radius(self.area),
         }
