@@ -97,7 +97,7 @@ impl RunKey {
 
 /// Named columns of equal length.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-pub struct Series(pub BTreeMap<String, Vec<f64>>);
+pub struct Series(#[serde(deserialize_with = "nullable::columns")] pub BTreeMap<String, Vec<f64>>);
 
 impl Series {
     /// Points of one column over another; empty if either is missing.
@@ -107,6 +107,39 @@ impl Series {
             (Some(x), Some(y)) => x.iter().copied().zip(y.iter().copied()).collect(),
             _ => Vec::new(),
         }
+    }
+}
+
+/// JSON has no word for what is no number, and writes null: that is read as NaN, so that the record of
+/// a run that failed can be read.
+mod nullable {
+    use std::collections::BTreeMap;
+
+    use serde::{Deserialize, Deserializer};
+
+    type Maybe = Option<f64>;
+
+    fn or_nan(value: Maybe) -> f64 {
+        value.unwrap_or(f64::NAN)
+    }
+
+    pub(super) fn number<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
+        Maybe::deserialize(from).map(or_nan)
+    }
+
+    pub(super) fn numbers<'de, D: Deserializer<'de>>(
+        from: D,
+    ) -> Result<BTreeMap<String, f64>, D::Error> {
+        let read = BTreeMap::<String, Maybe>::deserialize(from)?;
+        Ok(read.into_iter().map(|(name, value)| (name, or_nan(value))).collect())
+    }
+
+    pub(super) fn columns<'de, D: Deserializer<'de>>(
+        from: D,
+    ) -> Result<BTreeMap<String, Vec<f64>>, D::Error> {
+        let read = BTreeMap::<String, Vec<Maybe>>::deserialize(from)?;
+        let column = |values: Vec<Maybe>| values.into_iter().map(or_nan).collect();
+        Ok(read.into_iter().map(|(name, values)| (name, column(values))).collect())
     }
 }
 
@@ -145,10 +178,13 @@ pub struct RunRecord {
     /// CPU seconds of the stepping, all threads.
     pub cpu_seconds: f64,
     /// Largest error of the energy balance, see [`Ledger::energy_drift`].
+    #[serde(deserialize_with = "nullable::number")]
     pub energy_drift: f64,
     /// Largest error of the momentum balance, see [`Ledger::momentum_drift`].
+    #[serde(deserialize_with = "nullable::number")]
     pub momentum_drift: f64,
     /// Norms and other numbers that claims refer to.
+    #[serde(deserialize_with = "nullable::numbers")]
     pub norms: BTreeMap<String, f64>,
     /// Work done; absent for the Godunov code.
     pub counters: Option<Counters>,
@@ -374,4 +410,19 @@ fn parse(path: &Path, text: &str) -> Result<RunRecord, RecordError> {
         return Err(malformed(format!("it has format {}", record.schema)));
     }
     Ok(record)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The record of a run that failed must not make those beside it unreadable.
+    #[test]
+    fn what_is_no_number_is_written_and_read() {
+        let series = Series(BTreeMap::from([("speed".into(), vec![1.0, f64::NAN])]));
+        let text = serde_json::to_string(&series).unwrap_or_default();
+        let back: Series = serde_json::from_str(&text).unwrap_or_default();
+        let speeds = back.0.get("speed").cloned().unwrap_or_default();
+        assert!(speeds.len() == 2 && speeds[0] == 1.0 && speeds[1].is_nan(), "{text}");
+    }
 }

@@ -3,18 +3,28 @@
 //! A case says what is to be simulated, what is measured, and what is claimed of it. It knows
 //! nothing of files, pages or the command line.
 
+mod beam;
 mod block_collision;
 mod einfeldt;
+mod elastic_plastic_piston;
+mod free_surface;
 mod galilean_boost;
 mod gas;
 mod heat_chain;
 mod kolsky;
+mod lattice_kinematics;
 mod leblanc;
 mod long_rod;
 mod noh;
+mod noh_space;
+mod parts;
 mod planar_impact;
+mod sedov;
 mod sod;
+mod spall;
+mod spinning_block;
 mod strong_shock_tube;
+mod taylor;
 mod two_stream_noh;
 mod unequal_masses;
 mod uniform_collapse;
@@ -149,7 +159,7 @@ pub trait Case: Sync {
 }
 
 /// All cases, in the order of the report.
-pub const ALL: [&dyn Case; 16] = [
+pub const ALL: [&dyn Case; 26] = [
     &noh::Noh,
     &kolsky::Kolsky,
     &uniform_collapse::CASE,
@@ -164,7 +174,17 @@ pub const ALL: [&dyn Case; 16] = [
     &galilean_boost::GalileanBoost,
     &block_collision::BlockCollision,
     &heat_chain::HeatChain,
+    &lattice_kinematics::LatticeKinematics,
     &planar_impact::PlanarImpact,
+    &elastic_plastic_piston::ElasticPlasticPiston,
+    &free_surface::FreeSurface,
+    &spall::Spall,
+    &spinning_block::SpinningBlock,
+    &beam::Beam,
+    &noh_space::NohSpace,
+    &sedov::Sedov,
+    &taylor::COPPER_ROD,
+    &taylor::STEEL_ROD,
     &long_rod::LongRod,
 ];
 

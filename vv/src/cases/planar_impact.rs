@@ -3,14 +3,15 @@
 use std::fmt::Write as _;
 
 use whipple_solver::method::Preset;
-use whipple_solver::space::Simulation;
-use whipple_solver::space::scene::{
-    Body, EosData, Failure, GammaLaw, Hold, Material, Scene, Shape, Side, Turn, Wall,
-};
+use whipple_solver::space::scene::{Body, Scene, Shape, Side};
 use whipple_solver::units::Units;
 
+use super::parts::fit::slope;
+use super::parts::metals::{ALUMINIUM, COPPER, Metal, STEEL, TUNGSTEN};
+use super::parts::planes::{Plane, Planes, front};
+use super::parts::{mirror, moments, resting, sleeve};
 use super::{Case, Claim, Claims, Kind, Level, Quantity, Wanted, Weight};
-use crate::exact::hugoniot::{Hugoniot, PlanarImpact as Exact};
+use crate::exact::hugoniot::PlanarImpact as Exact;
 use crate::plots::{Axis, Figure, Layer, Panel, Series as Curve};
 use crate::record::{Records, RunKey, Scheme, Series};
 use crate::run::{Findings, RunError, SpaceDriver};
@@ -57,38 +58,6 @@ const VARIANTS: [&str; 15] = [
 /// Variants whose claims were looked at when the viscosity was chosen (decision 0012).
 const IN_SAMPLE: &str = "cu";
 
-/// A metal as `references/materials.toml` has it: density, `c0`, `s`, Grueneisen's constant, `c_v`.
-struct Metal {
-    name: &'static str,
-    constants: [f64; 5],
-}
-
-const COPPER: Metal = Metal { name: "copper", constants: [8.93, 0.394, 1.489, 2.02, 0.383e-5] };
-const ALUMINIUM: Metal =
-    Metal { name: "aluminium", constants: [2.70, 0.5386, 1.339, 1.97, 0.884e-5] };
-const TUNGSTEN: Metal =
-    Metal { name: "tungsten alloy", constants: [17.6, 0.403, 1.237, 1.67, 0.143e-5] };
-const STEEL: Metal = Metal { name: "steel", constants: [7.87, 0.4578, 1.33, 1.67, 0.448e-5] };
-
-impl Metal {
-    fn material(&self) -> Material {
-        let [density, c0, s, gamma_0, c_v] = self.constants;
-        let law = GammaLaw::ConstantProduct;
-        Material {
-            name: self.name.into(),
-            density,
-            eos: EosData::MieGruneisen { c0, s, gamma_0, law, c_v, theta_0: 300.0 },
-            strength: None,
-            failure: Failure::default(),
-        }
-    }
-
-    fn hugoniot(&self) -> Result<Hugoniot, RunError> {
-        let [density, c0, s, ..] = self.constants;
-        Ok(Hugoniot::new(density, c0, s)?)
-    }
-}
-
 /// What hits what.
 struct Shot {
     impactor: &'static Metal,
@@ -118,89 +87,6 @@ impl Shot {
         let (impactor, target) = (self.impactor.hugoniot()?, self.target.hugoniot()?);
         Ok(Exact::new(&impactor, &target, self.speed)?)
     }
-}
-
-/// Sums over the particles of one plane of the undeformed lattice.
-#[derive(Clone, Copy, Default)]
-struct Plane {
-    /// Distance from the impact plane before the impact.
-    place: f64,
-    count: f64,
-    pressure: f64,
-    density: f64,
-}
-
-/// Planes of a body, the nearest to the impact first.
-struct Planes {
-    spacing: f64,
-    /// Plane of every particle of the body.
-    of: Vec<(u32, usize)>,
-    count: usize,
-}
-
-impl Planes {
-    /// Planes of a body whose face towards the impact is at x = `face`.
-    fn new(simulation: &Simulation, body: usize, face: f64) -> Self {
-        // Nodes and centroids alternate.
-        let spacing = 0.5 * simulation.sizes(body).1[0];
-        let of: Vec<(u32, usize)> = simulation
-            .all_particles()
-            .filter(|p| p.body == body)
-            .map(|p| (p.id, ((p.position[0] - face).abs() / spacing).round() as usize))
-            .collect();
-        let count = of.iter().map(|(_, k)| k + 1).max().unwrap_or(0);
-        Self { spacing, of, count }
-    }
-
-    fn look(&self, simulation: &Simulation) -> Vec<Plane> {
-        let mut layers = vec![Plane::default(); self.count];
-        for (k, layer) in layers.iter_mut().enumerate() {
-            layer.place = k as f64 * self.spacing;
-        }
-        for &(id, k) in &self.of {
-            let p = simulation.particle(id);
-            layers[k].count += 1.0;
-            layers[k].pressure += p.pressure;
-            layers[k].density += p.rho;
-        }
-        for layer in &mut layers {
-            layer.pressure /= layer.count;
-            layer.density /= layer.count;
-        }
-        layers
-    }
-
-    /// Pressures of particles that passed the front some time ago, away from the impact plane.
-    fn shocked(&self, simulation: &Simulation, front: f64) -> Vec<f64> {
-        let margin = MARGIN * 2.0 * self.spacing;
-        let inside = |k: usize| {
-            let place = k as f64 * self.spacing;
-            place > margin && place < front - margin
-        };
-        let of = self.of.iter().filter(|(_, k)| inside(*k));
-        of.map(|(id, _)| simulation.pressure(*id as usize)).collect()
-    }
-}
-
-/// Where the mean pressure of the planes falls below half of `pressure`, the farthest from the impact.
-fn front_of(layers: &[Plane], pressure: f64) -> Option<f64> {
-    let half = 0.5 * pressure;
-    let (a, b) = layers
-        .windows(2)
-        .map(|w| (w[0], w[1]))
-        .rfind(|(a, b)| a.pressure >= half && b.pressure < half)?;
-    let share = (a.pressure - half) / (a.pressure - b.pressure);
-    Some(a.place + share * (b.place - a.place))
-}
-
-/// Slope of a straight line through points.
-fn slope(points: &[(f64, f64)]) -> f64 {
-    let n = points.len() as f64;
-    let (x, y) = points.iter().fold((0.0, 0.0), |(x, y), p| (x + p.0 / n, y + p.1 / n));
-    let (xy, xx) = points
-        .iter()
-        .fold((0.0, 0.0), |(xy, xx), p| (xy + (p.0 - x) * (p.1 - y), xx + (p.0 - x) * (p.0 - x)));
-    xy / xx
 }
 
 impl Case for PlanarImpact {
@@ -239,27 +125,15 @@ impl Case for PlanarImpact {
         let shot = Shot::of(variant);
         let edge = LENGTH / n as f64;
         let width = ACROSS as f64 * edge;
-        let mut walls = Vec::new();
-        for axis in 1..3 {
-            for (position, material) in [(-0.5 * width, Side::Above), (0.5 * width, Side::Below)] {
-                walls.push(Wall { axis, position, material, hold: Hold::Mirror });
-            }
-        }
+        let mut walls = sleeve(width);
+        let (shape, cells) = (Shape::Box { size: [LENGTH, width, width] }, [n, ACROSS, ACROSS]);
         let body = |metal: &Metal, centre: f64, velocity: f64| Body {
-            name: metal.name.into(),
-            material: metal.name.into(),
-            shape: Shape::Box { size: [LENGTH, width, width] },
-            cells: [n, ACROSS, ACROSS],
-            centre: [centre, 0.0, 0.0],
-            turn: Turn::default(),
             velocity: [velocity, 0.0, 0.0],
-            spin: [0.0; 3],
-            energy: 0.0,
             noise: NOISE * 0.5 * shot.speed,
+            ..resting(metal.name, shape, cells, [centre, 0.0, 0.0])
         };
         let (materials, bodies) = if shot.symmetric() {
-            let (axis, material) = (0, Side::Above);
-            walls.push(Wall { axis, position: 0.0, material, hold: Hold::Mirror });
+            walls.push(mirror(0, 0.0, Side::Above));
             let body = body(shot.impactor, 0.5 * LENGTH, -0.5 * shot.speed);
             (vec![shot.impactor.material()], vec![body])
         } else {
@@ -305,32 +179,34 @@ impl Case for PlanarImpact {
             driver.advance_to(scene.stop_time * (0.5 + 0.5 * k as f64 / LOOKS as f64))?;
             driver.balance();
             let layers = target.look(driver.solver());
-            if let Some(place) = front_of(&layers, state.pressure) {
+            if let Some(place) = front(&layers, |l| l.pressure, 0.5 * state.pressure) {
                 seen.push((driver.solver().time(), place));
             }
         }
         let layers = target.look(driver.solver());
-        let front = seen.last().map_or(f64::NAN, |p| p.1);
+        let reached = seen.last().map_or(f64::NAN, |p| p.1);
 
         let mut findings = Findings::default();
         let mut enter = |name: &str, value: f64| findings.norms.insert(name.into(), value);
         let shock = slope(&seen);
         enter("shock_speed", 10.0 * shock);
         enter("shock_speed_error", shock / state.shock_speed - 1.0);
-        let pressures = target.shocked(driver.solver(), front);
+        let margin = MARGIN * 2.0 * target.spacing;
+        let pressures = target.pressures(driver.solver(), [margin, reached - margin]);
         let (mean, rms) = moments(&pressures);
         enter("pressure_error", mean / state.pressure - 1.0);
         enter("noise", rms / state.pressure);
         let misfit = |l: &Plane| {
-            let exact = if l.place < front { state.pressure } else { 0.0 };
+            let exact = if l.place < reached { state.pressure } else { 0.0 };
             (l.pressure - exact).abs() / state.pressure
         };
         let l1 = layers.iter().map(misfit).sum::<f64>() / layers.len() as f64;
         enter("pressure_l1", l1);
         if let Some(planes) = impactor {
             let layers = planes.look(driver.solver());
-            let front = front_of(&layers, state.pressure).unwrap_or(f64::NAN);
-            let (mean, rms) = moments(&planes.shocked(driver.solver(), front));
+            let place = front(&layers, |l| l.pressure, 0.5 * state.pressure).unwrap_or(f64::NAN);
+            let shocked = planes.pressures(driver.solver(), [margin, place - margin]);
+            let (mean, rms) = moments(&shocked);
             enter("pressure_error_impactor", mean / state.pressure - 1.0);
             enter("noise_impactor", rms / state.pressure);
         }
@@ -451,11 +327,4 @@ impl Case for PlanarImpact {
                        the run, 80 cells.";
         vec![Figure::new("planar-impact-profiles", caption, panels)]
     }
-}
-
-/// Mean and root mean square about it.
-fn moments(values: &[f64]) -> (f64, f64) {
-    let n = values.len() as f64;
-    let mean = values.iter().sum::<f64>() / n;
-    (mean, (values.iter().map(|v| (v - mean) * (v - mean)).sum::<f64>() / n).sqrt())
 }

@@ -11,6 +11,7 @@ mod long_runs;
 mod names;
 mod planar_impact;
 mod report;
+mod solids;
 mod space_output;
 mod tables;
 mod vtk;

@@ -1,0 +1,323 @@
+//! A column with strength against a wall: elastic precursor and plastic wave.
+
+use whipple_solver::method::Preset;
+use whipple_solver::space::method::{Method, YieldNorm};
+use whipple_solver::space::scene::{
+    Body, EosData, Failure, Flow, GammaLaw, Material, Scene, Shape, Side, Strength,
+};
+use whipple_solver::units::Units;
+
+use super::parts::fit::slope;
+use super::parts::planes::{Plane, Planes, front, mean};
+use super::parts::{Columns, mirror, resting, sleeve};
+use super::{Case, Claim, Claims, Kind, Level, Quantity, Wanted, Weight};
+use crate::exact::gruneisen::MieGruneisen;
+use crate::exact::hugoniot::Hugoniot;
+use crate::exact::piston::{Piston, PistonState, Structure};
+use crate::exact::strength::{Elasticity, Strength as Law, YieldReading};
+use crate::plots::{Axis, Figure, Layer, Panel, Series as Curve};
+use crate::record::{Records, RunKey, Scheme};
+use crate::run::{Findings, RunError, SpaceDriver};
+use crate::scene::AnyScene;
+
+/// The case.
+pub(super) struct ElasticPlasticPiston;
+
+const ID: &str = "elastic-plastic-piston";
+/// Length of the column in cm.
+const LENGTH: f64 = 8.0;
+/// Cells across the column.
+const ACROSS: usize = 2;
+/// Speed of the column in cm/us.
+const SPEED: f64 = 0.01;
+/// Aluminium of the reference: density, `c0`, `s`, constant Grueneisen coefficient.
+const SOLID: [f64; 4] = [2.79, 0.533, 1.34, 2.0];
+/// Its shear modulus and yield stress in Mbar.
+const SHEAR: f64 = 0.286;
+const YIELD: f64 = 0.0026;
+/// Part of the column that the precursor runs through.
+const RUN: f64 = 0.75;
+/// Times at which the waves are located.
+const LOOKS: usize = 20;
+const SIZES: [usize; 4] = [40, 80, 160, 320];
+const J2: &str = "j2";
+const AS_PRINTED: &str = "as-printed";
+const VARIANTS: [&str; 3] = ["", J2, AS_PRINTED];
+/// Millimetres per microsecond, that is km/s, of a cm/us.
+const KM_S: f64 = 10.0;
+
+/// The reading of the yield stress of a variant, in both vocabularies.
+fn reading(variant: &str) -> (YieldNorm, YieldReading) {
+    match variant {
+        J2 => (YieldNorm::J2, YieldReading::Shear),
+        AS_PRINTED => (YieldNorm::AsPrinted, YieldReading::AsPrinted),
+        _ => (YieldNorm::Mises, YieldReading::Mises),
+    }
+}
+
+/// The two waves, seen from the undeformed column.
+struct Exact {
+    at_yield: PistonState,
+    driven: PistonState,
+    /// Speeds of precursor and plastic wave in the undeformed column.
+    speeds: [f64; 2],
+}
+
+impl Exact {
+    fn of(variant: &str) -> Result<Self, RunError> {
+        let [density, c0, s, gamma] = SOLID;
+        let eos = MieGruneisen::constant_gamma(Hugoniot::new(density, c0, s)?, gamma)?;
+        let law = Law::new(Elasticity::IsochoricGreen(reading(variant).1), SHEAR, YIELD)?;
+        let piston = Piston::new(&eos, &law, SPEED)?;
+        let Structure::TwoWave { elastic, plastic } = piston.structure() else {
+            return Err(RunError::Reference("the piston drives no two waves".into()));
+        };
+        let at_yield = *piston.at_yield();
+        let plastic = at_yield.density / density * (plastic - at_yield.velocity);
+        Ok(Self { at_yield, driven: *piston.driven(), speeds: [elastic, plastic] })
+    }
+
+    /// Velocity that the column has lost at a place of the undeformed column.
+    fn lost(&self, place: f64, time: f64) -> f64 {
+        let [elastic, plastic] = self.speeds.map(|speed| speed * time);
+        match place {
+            x if x <= plastic => self.driven.velocity,
+            x if x <= elastic => self.at_yield.velocity,
+            _ => 0.0,
+        }
+    }
+}
+
+/// Velocity that a plane has lost.
+fn lost(plane: &Plane) -> f64 {
+    plane.velocity + SPEED
+}
+
+fn default_key(variant: &str, n: usize) -> RunKey {
+    RunKey::new(ID, Scheme::preset(Preset::Default), n).variant(variant)
+}
+
+impl Case for ElasticPlasticPiston {
+    fn id(&self) -> &'static str {
+        ID
+    }
+
+    fn title(&self) -> &'static str {
+        "Elastic-plastic piston"
+    }
+
+    fn about(&self) -> &'static str {
+        "A column of elastic, perfectly plastic aluminium of 8 cm hits a wall at 100 m/s: an elastic \
+         precursor runs ahead of the plastic wave. Waves are located where half of their rise in \
+         velocity is reached, and their speeds are slopes over the second half of the run, in the \
+         undeformed column. The level of the precursor is the mean velocity over the middle two \
+         fifths between the waves; behind the plastic wave, means go from 0.2 to 0.8 of its way; the \
+         stress at the wall is its impulse over the second half of the run. The plain variant reads the \
+         yield stress as von Mises, `j2` as shear and `as-printed` as Eqs. (39)-(43) stand: the \
+         precursor tells them apart, and each is judged by its own exact solution. n counts the cells \
+         along the column, two across between mirrors."
+    }
+
+    fn source(&self) -> &'static str {
+        "two-wave solution with the isochoric Green law; constants of `lieberman_al` in \
+         `references/elastic_plastic_piston.csv`"
+    }
+
+    fn variants(&self) -> &'static [&'static str] {
+        &VARIANTS
+    }
+
+    fn default_size(&self) -> usize {
+        SIZES[2]
+    }
+
+    fn scene(&self, preset: Preset, variant: &str, n: usize) -> AnyScene {
+        let width = ACROSS as f64 * LENGTH / n as f64;
+        let mut walls = sleeve(width);
+        walls.push(mirror(0, 0.0, Side::Above));
+        let [density, c0, s, gamma_0] = SOLID;
+        let law = GammaLaw::Steinberg(gamma_0);
+        // Neither hardens nor softens.
+        let flow = Flow::Hardening {
+            y_0: YIELD,
+            kappa: 0.0,
+            alpha: 0.0,
+            eta: 0.0,
+            reference: 300.0,
+            melt: 1220.0,
+        };
+        let metal = Material {
+            name: "aluminium".into(),
+            density,
+            eos: EosData::MieGruneisen { c0, s, gamma_0, law, c_v: 0.884e-5, theta_0: 300.0 },
+            strength: Some(Strength { shear_modulus: SHEAR, flow: Some(flow) }),
+            failure: Failure::default(),
+        };
+        let shape = Shape::Box { size: [LENGTH, width, width] };
+        let centre = [0.5 * LENGTH, 0.0, 0.0];
+        let column = Body {
+            velocity: [-SPEED, 0.0, 0.0],
+            ..resting(&metal.name, shape, [n, ACROSS, ACROSS], centre)
+        };
+        // Only constants of this file come here; a test builds every scene.
+        let fastest = Exact::of(variant).map_or(1.0, |exact| exact.speeds[0]);
+        Scene {
+            name: ID.into(),
+            units: Units::CmGUsMbar,
+            stop_time: RUN * LENGTH / fastest,
+            method: Method { yield_norm: reading(variant).0, ..preset.space() },
+            walls,
+            materials: vec![metal],
+            bodies: vec![column],
+        }
+        .into()
+    }
+
+    fn measure_space(
+        &self,
+        scene: &Scene,
+        key: &RunKey,
+        driver: &mut SpaceDriver<'_>,
+    ) -> Result<Findings, RunError> {
+        let exact = Exact::of(&key.variant)?;
+        let planes = Planes::new(driver.solver(), 0, 0.0);
+        let (first, second) = (exact.at_yield.velocity, exact.driven.velocity);
+        let levels = [0.5 * first, 0.5 * (first + second)];
+        let mut seen = [Vec::new(), Vec::new()];
+        let mut pushed = Vec::new();
+        for k in 0..=LOOKS {
+            driver.advance_to(scene.stop_time * (0.5 + 0.5 * k as f64 / LOOKS as f64))?;
+            let balance = driver.balance();
+            let time = driver.solver().time();
+            pushed.push((time, balance.wall_impulse[0]));
+            let layers = planes.look(driver.solver());
+            for (seen, level) in seen.iter_mut().zip(levels) {
+                if let Some(place) = front(&layers, lost, level) {
+                    seen.push((time, place));
+                }
+            }
+        }
+        let layers = planes.look(driver.solver());
+        let time = driver.solver().time();
+        let [ahead, behind] = seen.each_ref().map(|s| s.last().map_or(f64::NAN, |p| p.1));
+        let gap = ahead - behind;
+        let level = mean(&layers, lost, [behind + 0.3 * gap, behind + 0.7 * gap]);
+        let plateau = [0.2 * behind, 0.8 * behind];
+        let width = ACROSS as f64 * LENGTH / key.n as f64;
+        let stress = slope(&pushed) / (width * width);
+
+        let mut findings = Findings::default();
+        let mut enter = |name: &str, value: f64| findings.norms.insert(name.into(), value);
+        let [elastic, plastic] = seen.each_ref().map(|s| slope(s));
+        enter("precursor_speed", KM_S * elastic);
+        enter("precursor_speed_error", elastic / exact.speeds[0] - 1.0);
+        enter("plastic_speed", KM_S * plastic);
+        enter("plastic_speed_error", plastic / exact.speeds[1] - 1.0);
+        // 10 000 m/s are a cm/us.
+        enter("precursor_m_s", 1e4 * level);
+        enter("precursor_error", level / first - 1.0);
+        let density = mean(&layers, |l| l.density, plateau);
+        enter("density_error", density / exact.driven.density - 1.0);
+        let pressure = mean(&layers, |l| l.pressure, plateau);
+        enter("pressure_error", pressure / exact.driven.pressure - 1.0);
+        enter("stress_error", stress / exact.driven.stress - 1.0);
+        let misfit = |l: &Plane| (lost(l) - exact.lost(l.place, time)).abs() / SPEED;
+        enter("velocity_l1", layers.iter().map(misfit).sum::<f64>() / layers.len() as f64);
+        let mut profile = Columns::default();
+        for l in &layers {
+            profile.row([
+                ("place", l.place),
+                ("velocity", 1e4 * lost(l)),
+                ("exact", 1e4 * exact.lost(l.place, time)),
+            ]);
+        }
+        findings.profile = Some(profile.series());
+        Ok(findings)
+    }
+
+    fn runs(&self, level: Level) -> Vec<RunKey> {
+        let mut keys = vec![default_key("", SIZES[0]), default_key("", SIZES[1])];
+        keys.extend(VARIANTS.map(|v| default_key(v, SIZES[2])));
+        if level >= Level::Standard {
+            keys.push(default_key("", SIZES[3]));
+            keys.push(RunKey::new(ID, Scheme::preset(Preset::Paper), SIZES[2]));
+        }
+        keys
+    }
+
+    fn claims(&self) -> Vec<Claim> {
+        let source = "two-wave solution; tolerance of `references/verification_problems.toml`";
+        let must = Claims::new(ID, Kind::Verification, Weight::Must, source);
+        let mut out = Vec::new();
+        for variant in VARIANTS {
+            let name = if variant.is_empty() { "mises" } else { variant };
+            let key = default_key(variant, SIZES[2]);
+            for (norm, text) in [
+                ("precursor_speed_error", "speed of the precursor, error"),
+                ("precursor_error", "velocity behind the precursor, error"),
+                ("plastic_speed_error", "speed of the plastic wave, error"),
+                ("stress_error", "stress at the wall, error"),
+                ("pressure_error", "pressure behind the plastic wave, error"),
+            ] {
+                out.push(must.claim(
+                    format!("{name}: {text}"),
+                    Quantity::Norm(key.clone(), norm),
+                    Wanted::WithinZero(0.02),
+                ));
+            }
+        }
+        // Precursor and weak plastic wave hardly steepen: they spread as linear waves do.
+        let source =
+            "a linear wave under a viscosity of first order: width goes with the root of the cell";
+        let order = Claims { source, ..must };
+        let keys = SIZES.map(|n| default_key("", n));
+        out.push(order.claim(
+            "order of the L1 error of the velocity, mises",
+            Quantity::Order(keys.to_vec(), "velocity_l1"),
+            Wanted::Around(0.5, 0.25),
+        ));
+        out.extend(super::conservation_in_space(ID, &default_key("", SIZES[2])));
+        out
+    }
+
+    fn tabulated(&self) -> &'static [(&'static str, &'static str)] {
+        &[
+            ("precursor_m_s", "precursor, m/s"),
+            ("precursor_error", "its error"),
+            ("precursor_speed_error", "error of its speed"),
+            ("plastic_speed_error", "error of the plastic speed"),
+            ("stress_error", "error of the stress"),
+            ("pressure_error", "error of P"),
+            ("velocity_l1", "L1 of velocity"),
+        ]
+    }
+
+    fn figures(&self, records: &Records) -> Vec<Figure> {
+        let panels: Vec<Panel> = VARIANTS
+            .iter()
+            .filter_map(|variant| {
+                let title = if variant.is_empty() { "mises" } else { variant };
+                let axes = (
+                    Axis::linear("place in the undeformed column, cm"),
+                    Axis::linear("velocity lost, m/s"),
+                );
+                let mut panel = Panel::new(title, axes.0, axes.1);
+                let record = records.get(&default_key(variant, SIZES[2]));
+                let profile = record.and_then(|r| r.profile.as_ref())?;
+                panel = panel.with(Curve::line("default", profile.points("place", "velocity")));
+                let paper = RunKey::new(ID, Scheme::preset(Preset::Paper), SIZES[2]);
+                let paper = records.get(&paper.variant(variant));
+                if let Some(profile) = paper.and_then(|r| r.profile.as_ref()) {
+                    panel = panel.with(Curve::line("paper", profile.points("place", "velocity")));
+                }
+                Some(panel.with(Layer::exact("exact", profile.points("place", "exact"))))
+            })
+            .collect();
+        if panels.is_empty() {
+            return Vec::new();
+        }
+        let caption = "Velocity that the column has lost, with the yield stress read in three ways, at \
+                       the end of the run, 160 cells.";
+        vec![Figure::new("elastic-plastic-piston-profiles", caption, panels)]
+    }
+}

@@ -1,0 +1,261 @@
+//! The Noh implosion in three dimensions: onto a plane, an axis and a centre.
+
+use whipple_solver::method::Preset;
+use whipple_solver::space::Simulation;
+use whipple_solver::space::method::Method;
+use whipple_solver::space::scene::{Body, EosData, Failure, Material, Scene, Shape, Side};
+use whipple_solver::units::Units;
+
+use super::parts::shells::{edge, outward, radius, shells};
+use super::parts::{Columns, mirror, moments, motion, resting};
+use super::{Case, Claim, Claims, Kind, Level, Quantity, Wanted, Weight};
+use crate::exact::Geometry;
+use crate::exact::noh::Noh as Exact;
+use crate::plots::{Axis, Figure, Layer, Panel, Series as Curve};
+use crate::record::{Records, RunKey, Scheme};
+use crate::run::{Findings, RunError, SpaceDriver};
+use crate::scene::AnyScene;
+
+/// The case.
+pub(super) struct NohSpace;
+
+const ID: &str = "noh-space";
+const GAMMA: f64 = 5.0 / 3.0;
+/// Time at which the shock has come to 0.2.
+const STOP: f64 = 0.6;
+/// Internal energy of the cold gas, over that behind the shock.
+const COLD: f64 = 1e-6;
+/// Coefficient of the viscous pressure of pyramids, which cold gas needs (decision 0013).
+const VOLUME_VISCOSITY: f64 = 2.0;
+/// Cells along what is left of a direction without flow.
+const ACROSS: usize = 2;
+/// Radius up to which errors are measured.
+const REACH: f64 = 0.35;
+/// Part of the radius of the shock over which the state behind it is averaged.
+const INSIDE: [f64; 2] = [0.3, 0.8];
+/// First entry of the run, over its end: the first step knows of no wave yet.
+const FIRST: f64 = 1e-4;
+const CYLINDRICAL: &str = "cylindrical";
+const SPHERICAL: &str = "spherical";
+const VARIANTS: [&str; 3] = ["", CYLINDRICAL, SPHERICAL];
+/// Cells along the unit of length.
+const SIZES: [usize; 3] = [8, 12, 16];
+
+fn geometry(variant: &str) -> Geometry {
+    match variant {
+        CYLINDRICAL => Geometry::Cylindrical,
+        SPHERICAL => Geometry::Spherical,
+        _ => Geometry::Planar,
+    }
+}
+
+fn exact(geometry: Geometry) -> Result<Exact, RunError> {
+    Ok(Exact::new(geometry, GAMMA, 1.0, 1.0)?)
+}
+
+fn default_key(variant: &str, n: usize) -> RunKey {
+    RunKey::new(ID, Scheme::preset(Preset::Default), n).variant(variant)
+}
+
+/// Densities behind the shock of particles away from the centre.
+fn behind(simulation: &Simulation, geometry: Geometry, shock: f64) -> Vec<f64> {
+    let [from, to] = INSIDE.map(|part| part * shock);
+    let inside = |r: f64| r > from && r < to;
+    let all = simulation.all_particles();
+    all.filter(|p| inside(radius(geometry, p.position))).map(|p| p.rho).collect()
+}
+
+impl Case for NohSpace {
+    fn id(&self) -> &'static str {
+        ID
+    }
+
+    fn title(&self) -> &'static str {
+        "Noh implosion in three dimensions"
+    }
+
+    fn about(&self) -> &'static str {
+        "Cold gas runs at speed 1 onto a plane, an axis or a centre, where a shock stands off at a third \
+         of that speed: a column, a quarter of a slab and an octant of a cube between mirrors, of edge 1, \
+         to t = 0.6. Compression behind the shock is 4, 16 and 64. Velocities are set in the state: no \
+         scene states them. The viscous pressure of pyramids is on (`visc_volume` 2), as cold gas \
+         needs it. Elements compressed more than five times are no volumes any more (decision 0012), so \
+         that on the axis and in the centre the density is that of contacts. Density is \
+         averaged from 0.3 to 0.8 of the radius of the exact shock, L1 is by exact volume to \
+         r = 0.35. n counts the cells along the unit of length."
+    }
+
+    fn source(&self) -> &'static str {
+        "Noh (1987); `references/noh_exact.csv`"
+    }
+
+    fn variants(&self) -> &'static [&'static str] {
+        &VARIANTS
+    }
+
+    fn default_size(&self) -> usize {
+        SIZES[2]
+    }
+
+    fn scene(&self, preset: Preset, variant: &str, n: usize) -> AnyScene {
+        let flows = geometry(variant).dimension() as usize;
+        let thin = ACROSS as f64 / n as f64;
+        let size: [f64; 3] = std::array::from_fn(|d| if d < flows { 1.0 } else { thin });
+        let cells: [usize; 3] = std::array::from_fn(|d| if d < flows { n } else { ACROSS });
+        let mut walls: Vec<_> = (0..3).map(|axis| mirror(axis, 0.0, Side::Above)).collect();
+        walls.extend((flows..3).map(|axis| mirror(axis, thin, Side::Below)));
+        let gas = Material {
+            name: "gas".into(),
+            density: 1.0,
+            eos: EosData::IdealGas { adiabatic_index: GAMMA, c_v: 1.0 },
+            strength: None,
+            failure: Failure { compression: 0.0, ..Failure::default() },
+        };
+        let body = Body {
+            energy: 0.5 * COLD,
+            ..resting("gas", Shape::Box { size }, cells, size.map(|edge| 0.5 * edge))
+        };
+        Scene {
+            name: ID.into(),
+            units: Units::None,
+            stop_time: STOP,
+            method: Method { visc_volume: VOLUME_VISCOSITY, ..preset.space() },
+            walls,
+            materials: vec![gas],
+            bodies: vec![body],
+        }
+        .into()
+    }
+
+    fn measure_space(
+        &self,
+        scene: &Scene,
+        key: &RunKey,
+        driver: &mut SpaceDriver<'_>,
+    ) -> Result<Findings, RunError> {
+        let geometry = geometry(&key.variant);
+        let exact = exact(geometry)?;
+        let flows = geometry.dimension() as usize;
+        driver.prepare(|simulation| {
+            motion::start(simulation, |p| {
+                let r = radius(geometry, p.position);
+                let inwards =
+                    |d: usize| if d < flows && r > 0.0 { -p.position[d] / r } else { 0.0 };
+                std::array::from_fn(inwards)
+            })
+        })?;
+        driver.advance_to(FIRST * scene.stop_time)?;
+        driver.advance_to(scene.stop_time)?;
+        driver.balance();
+        let solver = driver.solver();
+        let time = solver.time();
+        let shock = exact.shock_position(time);
+        let state = exact.behind();
+        let (density, scatter) = moments(&behind(solver, geometry, shock));
+        let shells = shells(solver, geometry, [1.0 / key.n as f64 / 8.0, REACH]);
+        let level = 0.5 * (exact.ahead().density + state.density);
+        let [mut misfit, mut speed, mut volume] = [0.0; 3];
+        for p in solver.all_particles() {
+            let r = radius(geometry, p.position);
+            if r < REACH {
+                let wanted = exact.sample(r, time)?;
+                let own = p.mass / wanted.density;
+                volume += own;
+                misfit += own * (p.rho - wanted.density).abs() / state.density;
+                speed += own * (outward(geometry, &p) - wanted.velocity).abs();
+            }
+        }
+        let mut findings = Findings::default();
+        let mut enter = |name: &str, value: f64| findings.norms.insert(name.into(), value);
+        enter("density", density);
+        enter("density_error", density / state.density - 1.0);
+        enter("scatter", scatter / state.density);
+        let found = edge(&shells, |s| s.density, level).unwrap_or(f64::NAN);
+        enter("shock_error", found / shock - 1.0);
+        enter("density_l1", misfit / volume);
+        enter("velocity_l1", speed / volume);
+        enter("dead_elements", solver.failed().1 as f64);
+        let mut profile = Columns::default();
+        for s in &shells {
+            let wanted = exact.sample(s.radius, time)?;
+            profile.row([("radius", s.radius), ("density", s.density), ("exact", wanted.density)]);
+        }
+        findings.profile = Some(profile.series());
+        Ok(findings)
+    }
+
+    fn draws(&self, _: &RunKey) -> bool {
+        true
+    }
+
+    fn runs(&self, level: Level) -> Vec<RunKey> {
+        let mut keys: Vec<RunKey> = VARIANTS.map(|v| default_key(v, SIZES[0])).into();
+        if level >= Level::Standard {
+            keys.extend(VARIANTS.map(|v| default_key(v, SIZES[1])));
+        }
+        if level == Level::Full {
+            keys.extend(VARIANTS.map(|v| default_key(v, SIZES[2])));
+        }
+        keys
+    }
+
+    fn claims(&self) -> Vec<Claim> {
+        let source = "exact solution; tolerances of `references/verification_problems.toml`";
+        let must = Claims::new(ID, Kind::Verification, Weight::Must, source);
+        let shown = Claims { weight: Weight::Shown, ..must };
+        let mut out = Vec::new();
+        for variant in VARIANTS {
+            let (name, share) = if variant.is_empty() { ("planar", 0.01) } else { (variant, 0.1) };
+            let norm = |name| Quantity::Norm(default_key(variant, SIZES[2]), name);
+            out.push(shown.claim(
+                format!("{name}: density behind the shock, error"),
+                norm("density_error"),
+                Wanted::WithinZero(share),
+            ));
+            out.push(shown.claim(
+                format!("{name}: radius of the shock, error"),
+                norm("shock_error"),
+                Wanted::WithinZero(0.03),
+            ));
+            out.extend(super::conservation_in_space(ID, &default_key(variant, SIZES[0])));
+        }
+        out
+    }
+
+    fn tabulated(&self) -> &'static [(&'static str, &'static str)] {
+        &[
+            ("density", "density behind"),
+            ("density_error", "its error"),
+            ("scatter", "scatter"),
+            ("shock_error", "error of the shock's radius"),
+            ("density_l1", "L1 of density"),
+            ("velocity_l1", "L1 of velocity"),
+            ("dead_elements", "dead elements"),
+        ]
+    }
+
+    fn figures(&self, records: &Records) -> Vec<Figure> {
+        let panels: Vec<Panel> = VARIANTS
+            .iter()
+            .filter_map(|variant| {
+                let title = if variant.is_empty() { "planar" } else { variant };
+                let mut panel = Panel::new(title, Axis::linear("radius"), Axis::linear("density"));
+                let mut exact = None;
+                for n in SIZES {
+                    let record = records.get(&default_key(variant, n));
+                    let Some(profile) = record.and_then(|r| r.profile.as_ref()) else { continue };
+                    let points = profile.points("radius", "density");
+                    panel = panel.with(Curve::line(format!("n = {n}"), points));
+                    exact = Some(profile.points("radius", "exact"));
+                }
+                exact.map(|points| panel.with(Layer::exact("exact", points)))
+            })
+            .collect();
+        if panels.is_empty() {
+            return Vec::new();
+        }
+        let caption = "Density over the distance from plane, axis and centre at t = 0.6, means of thin \
+                       shells by mass.";
+        vec![Figure::new("noh-space-density", caption, panels)]
+    }
+}

@@ -1,0 +1,73 @@
+//! What cases in space share: metals, walls, bodies, averages over planes, initial motions.
+
+pub(super) mod discs;
+pub(super) mod fit;
+pub(super) mod metals;
+pub(super) mod modes;
+pub(super) mod motion;
+pub(super) mod planes;
+pub(super) mod shells;
+
+use std::collections::BTreeMap;
+
+use whipple_solver::space::scene::{Body, Hold, Shape, Side, Turn, Wall};
+
+use crate::record::Series;
+
+/// A plane of symmetry.
+pub(super) fn mirror(axis: usize, position: f64, material: Side) -> Wall {
+    Wall { axis, position, material, hold: Hold::Mirror }
+}
+
+/// Mirrors that hold a column along x at `-width/2` and `width/2` in y and z.
+pub(super) fn sleeve(width: f64) -> Vec<Wall> {
+    let sides = [(-0.5 * width, Side::Above), (0.5 * width, Side::Below)];
+    let both = |axis| sides.map(|(position, side)| mirror(axis, position, side));
+    (1..3).flat_map(both).collect()
+}
+
+/// A body at rest, named like its material.
+pub(super) fn resting(material: &str, shape: Shape, cells: [usize; 3], centre: [f64; 3]) -> Body {
+    Body {
+        name: material.into(),
+        material: material.into(),
+        shape,
+        cells,
+        centre,
+        turn: Turn::default(),
+        velocity: [0.0; 3],
+        spin: [0.0; 3],
+        energy: 0.0,
+        noise: 0.0,
+    }
+}
+
+/// Mean and root mean square about it.
+pub(super) fn moments(values: &[f64]) -> (f64, f64) {
+    let n = values.len() as f64;
+    let mean = values.iter().sum::<f64>() / n;
+    (mean, (values.iter().map(|v| (v - mean) * (v - mean)).sum::<f64>() / n).sqrt())
+}
+
+/// Columns of a history or profile that grow row by row.
+#[derive(Default)]
+pub(super) struct Columns(BTreeMap<String, Vec<f64>>);
+
+impl Columns {
+    /// Adds a row.
+    pub(super) fn row<const N: usize>(&mut self, entries: [(&str, f64); N]) {
+        for (name, value) in entries {
+            self.0.entry(name.into()).or_default().push(value);
+        }
+    }
+
+    /// A column so far.
+    pub(super) fn column(&self, name: &str) -> &[f64] {
+        self.0.get(name).map_or(&[], Vec::as_slice)
+    }
+
+    /// All of them.
+    pub(super) fn series(self) -> Series {
+        Series(self.0)
+    }
+}

@@ -1,0 +1,223 @@
+//! The Sedov blast in an octant.
+
+use whipple_solver::method::Preset;
+use whipple_solver::space::method::Method;
+use whipple_solver::space::output::Particle;
+use whipple_solver::space::scene::{Body, EosData, Failure, Material, Scene, Shape, Side};
+use whipple_solver::units::Units;
+
+use super::parts::shells::{radius, shells};
+use super::parts::{Columns, mirror, moments, motion, resting};
+use super::{Case, Claim, Claims, Kind, Level, Quantity, Wanted, Weight};
+use crate::exact::Geometry;
+use crate::exact::sedov::Sedov as Exact;
+use crate::plots::{Axis, Figure, Layer, Panel, Series as Curve};
+use crate::record::{Records, RunKey, Scheme};
+use crate::run::{Findings, RunError, SpaceDriver};
+use crate::scene::AnyScene;
+
+/// The case.
+pub(super) struct Sedov;
+
+const ID: &str = "sedov";
+const GAMMA: f64 = 1.4;
+const GEOMETRY: Geometry = Geometry::Spherical;
+/// Energy of the whole blast, whose shock is at 1 at the end of the run.
+const ENERGY: f64 = 0.851_072;
+const STOP: f64 = 1.0;
+/// Edge of the octant of a cube.
+const EDGE: f64 = 1.2;
+/// Internal energy per mass of the cold gas.
+const COLD: f64 = 1e-6;
+/// Specific heat.
+const HEAT: f64 = 1.0;
+/// Coefficient of the viscous pressure of pyramids, which cold gas needs (decision 0013).
+const VOLUME_VISCOSITY: f64 = 2.0;
+/// First entry of the run, over its end: the first step knows of no pressure gradient yet.
+const FIRST: f64 = 1e-6;
+/// Cells along the edge.
+const SIZES: [usize; 3] = [16, 24, 32];
+
+fn exact() -> Result<Exact, RunError> {
+    Ok(Exact::new(GEOMETRY, GAMMA, 1.0, ENERGY)?)
+}
+
+fn key(n: usize) -> RunKey {
+    RunKey::new(ID, Scheme::preset(Preset::Default), n)
+}
+
+impl Case for Sedov {
+    fn id(&self) -> &'static str {
+        ID
+    }
+
+    fn title(&self) -> &'static str {
+        "Sedov blast in three dimensions"
+    }
+
+    fn about(&self) -> &'static str {
+        "An octant of a cube of cold gas, gamma 1.4, between mirrors gets the energy of a point blast in \
+         the particles of its innermost corner, up to a cell away; the shock is to be at radius 1 at \
+         t = 1. The energy is set in the state, so that no scene states it. The viscous pressure \
+         of pyramids is on (`visc_volume` 2). The radius of the shock is where the mean pressure of shells \
+         falls below half of that behind the exact shock, scatter the root mean square of the density \
+         between 0.85 and 0.95 about the mean of its shell. n counts the cells along the edge of 1.2."
+    }
+
+    fn source(&self) -> &'static str {
+        "Sedov (1959), Kamm and Timmes (2007); energy of the ExactPack example"
+    }
+
+    fn default_size(&self) -> usize {
+        SIZES[1]
+    }
+
+    fn scene(&self, preset: Preset, _: &str, n: usize) -> AnyScene {
+        let gas = Material {
+            name: "gas".into(),
+            density: 1.0,
+            eos: EosData::IdealGas { adiabatic_index: GAMMA, c_v: HEAT },
+            strength: None,
+            failure: Failure { compression: 0.0, ..Failure::default() },
+        };
+        let body = Body {
+            energy: COLD,
+            ..resting("gas", Shape::Box { size: [EDGE; 3] }, [n; 3], [0.5 * EDGE; 3])
+        };
+        Scene {
+            name: ID.into(),
+            units: Units::None,
+            stop_time: STOP,
+            method: Method { visc_volume: VOLUME_VISCOSITY, ..preset.space() },
+            walls: (0..3).map(|axis| mirror(axis, 0.0, Side::Above)).collect(),
+            materials: vec![gas],
+            bodies: vec![body],
+        }
+        .into()
+    }
+
+    fn measure_space(
+        &self,
+        scene: &Scene,
+        key: &RunKey,
+        driver: &mut SpaceDriver<'_>,
+    ) -> Result<Findings, RunError> {
+        let exact = exact()?;
+        let cell = EDGE / key.n as f64;
+        let inside = |p: &Particle| radius(GEOMETRY, p.position) < 1.01 * cell;
+        driver.prepare(|simulation| {
+            let mass: f64 = simulation.all_particles().filter(inside).map(|p| p.mass).sum();
+            let hot = ENERGY / 8.0 / mass;
+            motion::heat(simulation, [GAMMA, HEAT], |p| if inside(p) { hot } else { COLD })
+        })?;
+        driver.advance_to(FIRST * scene.stop_time)?;
+        driver.advance_to(scene.stop_time)?;
+        let balance = driver.balance();
+        let solver = driver.solver();
+        let time = solver.time();
+        let (place, behind) = (exact.shock_position(time)?, exact.behind(time)?);
+        let means = shells(solver, GEOMETRY, [0.5 * cell, EDGE]);
+        let front = super::parts::shells::edge(&means, |s| s.pressure, 0.5 * behind.pressure);
+        let near: Vec<f64> = solver
+            .all_particles()
+            .filter_map(|p| {
+                let r = radius(GEOMETRY, p.position);
+                let shell = means
+                    .iter()
+                    .min_by(|a, b| (a.radius - r).abs().total_cmp(&(b.radius - r).abs()))?;
+                (r > 0.85 && r < 0.95).then_some(p.rho - shell.density)
+            })
+            .collect();
+        let [mut misfit, mut volume] = [0.0; 2];
+        for p in solver.all_particles() {
+            let r = radius(GEOMETRY, p.position);
+            if r < 1.1 {
+                let wanted = exact.sample(r, time)?;
+                let own = p.mass / p.rho;
+                volume += own;
+                misfit += own * (p.rho - wanted.density).abs() / behind.density;
+            }
+        }
+        let peak = means.iter().map(|s| s.density).fold(0.0, f64::max);
+        let mut findings = Findings::default();
+        let mut enter = |name: &str, value: f64| findings.norms.insert(name.into(), value);
+        enter("shock_error", front.unwrap_or(f64::NAN) / place - 1.0);
+        enter("peak_density", peak);
+        enter("peak_over_exact", peak / behind.density);
+        enter("scatter", moments(&near).1 / behind.density);
+        enter("density_l1", misfit / volume);
+        enter("kinetic_share", balance.now.kinetic / balance.now.energy());
+        enter("dead_elements", solver.failed().1 as f64);
+        let mut profile = Columns::default();
+        for s in &means {
+            let wanted = exact.sample(s.radius, time)?;
+            profile.row([
+                ("radius", s.radius),
+                ("density", s.density),
+                ("pressure", s.pressure),
+                ("exact_density", wanted.density),
+                ("exact_pressure", wanted.pressure),
+            ]);
+        }
+        findings.profile = Some(profile.series());
+        Ok(findings)
+    }
+
+    fn draws(&self, _: &RunKey) -> bool {
+        true
+    }
+
+    fn runs(&self, level: Level) -> Vec<RunKey> {
+        let count = match level {
+            Level::Quick => 1,
+            Level::Standard => 2,
+            Level::Full => 3,
+        };
+        SIZES[..count].iter().map(|&n| key(n)).collect()
+    }
+
+    fn claims(&self) -> Vec<Claim> {
+        let source = "exact solution; 2 % at 64 cells by `references/verification_problems.toml`";
+        let shown = Claims::new(ID, Kind::Verification, Weight::Shown, source);
+        let mut out = vec![shown.claim(
+            "radius of the shock, error",
+            Quantity::Norm(key(SIZES[2]), "shock_error"),
+            Wanted::WithinZero(0.02),
+        )];
+        out.extend(super::conservation_in_space(ID, &key(SIZES[0])));
+        out
+    }
+
+    fn tabulated(&self) -> &'static [(&'static str, &'static str)] {
+        &[
+            ("shock_error", "error of the shock's radius"),
+            ("peak_over_exact", "peak density / exact"),
+            ("scatter", "scatter"),
+            ("density_l1", "L1 of density"),
+            ("kinetic_share", "kinetic share of energy"),
+            ("dead_elements", "dead elements"),
+        ]
+    }
+
+    fn figures(&self, records: &Records) -> Vec<Figure> {
+        let panel = |label: &str| Panel::new("", Axis::linear("radius"), Axis::linear(label));
+        let names = ["density", "pressure"];
+        let mut panels = names.map(panel);
+        let mut exact = None;
+        for n in SIZES {
+            let record = records.get(&key(n));
+            let Some(profile) = record.and_then(|r| r.profile.as_ref()) else { continue };
+            panels = std::array::from_fn(|k| {
+                let points = profile.points("radius", names[k]);
+                panels[k].clone().with(Curve::line(format!("n = {n}"), points))
+            });
+            exact = Some(names.map(|name| profile.points("radius", &format!("exact_{name}"))));
+        }
+        let Some(exact) = exact else { return Vec::new() };
+        let all = panels.into_iter().zip(exact);
+        let panels = all.map(|(panel, points)| panel.with(Layer::exact("exact", points))).collect();
+        let caption =
+            "Density and pressure over the radius at t = 1, means of thin shells by mass.";
+        vec![Figure::new("sedov-profiles", caption, panels)]
+    }
+}

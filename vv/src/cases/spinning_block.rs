@@ -1,0 +1,218 @@
+//! An elastic block in free rotation: objectivity, and modes that nothing resists.
+
+use std::f64::consts::TAU;
+
+use whipple_solver::method::Preset;
+use whipple_solver::space::scene::{Body, Material, Scene, Shape, Strength};
+use whipple_solver::units::Units;
+
+use super::parts::metals::COPPER;
+use super::parts::{Columns, modes, resting};
+use super::{Case, Claim, Claims, Kind, Level, Quantity, Wanted, Weight};
+use crate::plots::{Axis, Figure, Panel, Series as Curve};
+use crate::record::{Records, RunKey, Scheme};
+use crate::run::{Findings, RunError, SpaceDriver};
+use crate::scene::AnyScene;
+
+/// The case.
+pub(super) struct SpinningBlock;
+
+const ID: &str = "spinning-block";
+/// Edges in cm; it spins about the axis of the shortest.
+const SIZE: [f64; 3] = [1.0, 0.8, 0.6];
+/// Angular velocity, 1/us: 128 m/s at the corners.
+const SPIN: f64 = 0.02;
+/// Largest random velocity of the variant, in cm/us.
+const NOISE: f64 = 1e-4;
+/// Entries of the history: a turn.
+const ENTRIES: usize = 64;
+const NOISY: &str = "noise";
+const VARIANTS: [&str; 2] = ["", NOISY];
+const SIZES: [usize; 2] = [10, 20];
+
+fn default_key(variant: &str, n: usize) -> RunKey {
+    RunKey::new(ID, Scheme::preset(Preset::Default), n).variant(variant)
+}
+
+fn paper_key() -> RunKey {
+    RunKey::new(ID, Scheme::preset(Preset::Paper), SIZES[0])
+}
+
+/// Largest of the last quarter of values over the largest of the first.
+fn growth(values: &[f64]) -> f64 {
+    let quarter = values.len() / 4;
+    let largest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
+    largest(&values[values.len() - quarter..]) / largest(&values[..quarter])
+}
+
+impl Case for SpinningBlock {
+    fn id(&self) -> &'static str {
+        ID
+    }
+
+    fn title(&self) -> &'static str {
+        "Spinning elastic block"
+    }
+
+    fn about(&self) -> &'static str {
+        "An elastic copper block of 1 by 0.8 by 0.6 cm spins freely about its shortest axis for a turn, \
+         0.02 rad/us. It starts without the strain of its rotation and so breathes. Energy is the change \
+         of all that is held, over the initial kinetic energy, the residual of the elements included. \
+         Hourglass is the kinetic energy of the four hourglass modes of the corners of every element, \
+         checkerboard that of centroids against the mean of their corners, over the initial kinetic \
+         energy: both vanish in rotation. Growth is the largest of the last quarter of the turn over \
+         the largest of the first. The variant `noise` starts with random velocities of 1 m/s. n counts \
+         the cells along the longest edge."
+    }
+
+    fn source(&self) -> &'static str {
+        "invariance; energy by the study in three dimensions"
+    }
+
+    fn variants(&self) -> &'static [&'static str] {
+        &VARIANTS
+    }
+
+    fn default_size(&self) -> usize {
+        SIZES[0]
+    }
+
+    fn scene(&self, preset: Preset, variant: &str, n: usize) -> AnyScene {
+        let metal = Material {
+            strength: Some(Strength { shear_modulus: 0.477, flow: None }),
+            ..COPPER.material()
+        };
+        let cells = SIZE.map(|edge| (edge * n as f64).round() as usize);
+        let block = Body {
+            spin: [0.0, 0.0, SPIN],
+            noise: if variant == NOISY { NOISE } else { 0.0 },
+            ..resting(COPPER.name, Shape::Box { size: SIZE }, cells, [0.0; 3])
+        };
+        Scene {
+            name: ID.into(),
+            units: Units::CmGUsMbar,
+            stop_time: TAU / SPIN,
+            method: preset.space(),
+            walls: Vec::new(),
+            materials: vec![metal],
+            bodies: vec![block],
+        }
+        .into()
+    }
+
+    fn measure_space(
+        &self,
+        scene: &Scene,
+        _: &RunKey,
+        driver: &mut SpaceDriver<'_>,
+    ) -> Result<Findings, RunError> {
+        let mut history = Columns::default();
+        for k in 1..=ENTRIES {
+            driver.advance_to(scene.stop_time * k as f64 / ENTRIES as f64)?;
+            let balance = driver.balance();
+            let modes = modes::energies(driver.solver());
+            let initial = balance.initial.kinetic;
+            history.row([
+                ("turn", driver.solver().time() * SPIN / TAU),
+                ("energy", (balance.now.energy() - balance.initial.energy()) / initial),
+                ("hourglass", modes.hourglass / initial),
+                ("checkerboard", modes.checkerboard / initial),
+                ("stored", (balance.now.shear + balance.now.tension) / initial),
+            ]);
+        }
+        let largest = |name: &str| history.column(name).iter().map(|v| v.abs()).fold(0.0, f64::max);
+        let mut findings = Findings::default();
+        let mut enter = |name: &str, value: f64| findings.norms.insert(name.into(), value);
+        enter("energy_error", largest("energy"));
+        for name in ["hourglass", "checkerboard"] {
+            enter(name, largest(name));
+            enter(&format!("{name}_growth"), growth(history.column(name)));
+        }
+        enter("stored", largest("stored"));
+        findings.history = Some(history.series());
+        Ok(findings)
+    }
+
+    fn draws(&self, _: &RunKey) -> bool {
+        true
+    }
+
+    fn runs(&self, level: Level) -> Vec<RunKey> {
+        let mut keys: Vec<RunKey> = VARIANTS.map(|v| default_key(v, SIZES[0])).into();
+        if level >= Level::Standard {
+            keys.push(paper_key());
+            keys.push(default_key("", SIZES[1]));
+        }
+        keys
+    }
+
+    fn claims(&self) -> Vec<Claim> {
+        let must = Claims::new(ID, Kind::Verification, Weight::Must, "issue; invariance");
+        let mut out = Vec::new();
+        for variant in VARIANTS {
+            let name = if variant.is_empty() { "plain" } else { variant };
+            let key = default_key(variant, SIZES[0]);
+            out.push(must.claim(
+                format!("{name}: change of the energy over the initial kinetic energy"),
+                Quantity::Norm(key.clone(), "energy_error"),
+                Wanted::AtMost(1e-4),
+            ));
+            for (norm, text) in
+                [("hourglass_growth", "hourglass"), ("checkerboard_growth", "checkerboard")]
+            {
+                out.push(must.claim(
+                    format!("{name}: growth of the {text} energy over a turn"),
+                    Quantity::Norm(key.clone(), norm),
+                    Wanted::AtMost(1.0),
+                ));
+            }
+            out.extend(super::conservation_in_space(ID, &key));
+        }
+        out
+    }
+
+    fn tabulated(&self) -> &'static [(&'static str, &'static str)] {
+        &[
+            ("energy_error", "change of energy"),
+            ("hourglass", "hourglass energy"),
+            ("hourglass_growth", "its growth"),
+            ("checkerboard", "checkerboard energy"),
+            ("checkerboard_growth", "its growth"),
+            ("stored", "elastic energy"),
+        ]
+    }
+
+    fn figures(&self, records: &Records) -> Vec<Figure> {
+        let runs = [
+            ("default", default_key("", SIZES[0])),
+            ("default, n = 20", default_key("", SIZES[1])),
+            ("default, noise", default_key(NOISY, SIZES[0])),
+            ("paper", paper_key()),
+        ];
+        let names = [
+            ("energy", "change of energy / initial"),
+            ("hourglass", "hourglass energy / initial"),
+            ("checkerboard", "checkerboard energy / initial"),
+        ];
+        let panels: Vec<Panel> = names
+            .into_iter()
+            .filter_map(|(column, label)| {
+                let mut panel = Panel::new("", Axis::linear("turn"), Axis::log(label));
+                for (name, key) in &runs {
+                    let history = records.get(key).and_then(|r| r.history.as_ref());
+                    let Some(history) = history else { continue };
+                    let points = history.points("turn", column);
+                    let points = points.into_iter().map(|p| (p.0, p.1.abs())).collect();
+                    panel = panel.with(Curve::line(*name, points));
+                }
+                (!panel.layers.is_empty()).then_some(panel)
+            })
+            .collect();
+        if panels.is_empty() {
+            return Vec::new();
+        }
+        let caption = "A turn of the block: size of the change of the energy, and energy in modes that no \
+                       strain resists.";
+        vec![Figure::new("spinning-block-energy", caption, panels)]
+    }
+}

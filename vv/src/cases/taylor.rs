@@ -1,0 +1,380 @@
+//! Taylor impacts: rods that are shortened and spread by a rigid wall.
+
+use whipple_solver::method::Preset;
+use whipple_solver::space::method::Method;
+use whipple_solver::space::scene::{
+    Body, EosData, Failure, Flow, GammaLaw, Hold, Material, Scene, Shape, Side, Strength, Wall,
+};
+use whipple_solver::units::Units;
+
+use super::parts::discs::{Discs, Rod};
+use super::parts::{Columns, moments, resting};
+use super::{Case, Claim, Claims, Kind, Level, Quantity, Wanted, Weight};
+use crate::plots::{Along, Axis, Figure, Layer, Panel, Series as Curve};
+use crate::record::{Records, RunKey, Scheme};
+use crate::run::{Findings, RunError, SpaceDriver};
+use crate::scene::AnyScene;
+
+/// A case: one rod.
+pub(super) struct Taylor {
+    id: &'static str,
+    title: &'static str,
+    about: &'static str,
+    source: &'static str,
+    /// Diameter, length in cm, speed in cm/us.
+    rod: [f64; 3],
+    material: fn() -> Material,
+    /// Final length in cm, foot radius in cm and where they come from.
+    wanted: [f64; 2],
+    reference: &'static str,
+    /// How far from them is near enough, relative to them.
+    share: f64,
+    variants: &'static [&'static str],
+}
+
+const COPPER: &str = "taylor-copper";
+const STEEL: &str = "taylor-42crmo4";
+/// The rods are at rest, or leave the wall, before, us.
+const STOP: f64 = 80.0;
+/// Entries of the histories.
+const ENTRIES: usize = 160;
+/// Cells across.
+const SIZES: [usize; 2] = [8, 12];
+const HALF: &str = "viscosity-half";
+const TWICE: &str = "viscosity-twice";
+const VARIANTS: [&str; 3] = ["", HALF, TWICE];
+/// Millimetres of a centimetre.
+const MM: f64 = 10.0;
+/// Where the bulge is measured, over the initial length.
+const BULGE: f64 = 0.2;
+
+/// The copper rod of Johnson and Cook.
+pub(super) const COPPER_ROD: Taylor = Taylor {
+    id: COPPER,
+    title: "Taylor impact of copper",
+    about: "A rod of OFHC copper, 7.62 mm by 25.4 mm, hits a rigid, frictionless wall at 190 m/s. \
+            Johnson-Cook strength; no failure. n counts the cells across. Length: from the lowest to \
+            the highest node of a live element, the mean over the last quarter of the run. Radii: of \
+            the disc with the area of the faces in one plane of the lattice, which does not see how the \
+            rim of the circle is stepped; faces of dead elements stay as large as they were last \
+            seen live. The reach is the farthest node of a live element from the axis. The final sizes of \
+            the experiment are recalled, not read: they are shown, and nothing required rests on them. \
+            Variants have half and twice every coefficient of the viscosity.",
+    source: "Johnson and Cook (1983), constants and speed as in `references/materials.toml` and \
+             `references/taylor_impact.csv`; equation of state of copper OFHC",
+    rod: [0.762, 2.54, 0.019],
+    material: copper,
+    wanted: [1.62, 0.675],
+    reference: "experiment, recalled",
+    share: 0.05,
+    variants: &VARIANTS,
+};
+
+/// The steel rod of the codes.
+pub(super) const STEEL_ROD: Taylor = Taylor {
+    id: STEEL,
+    title: "Taylor impact of 42CrMo4 steel",
+    about: "A rod of 42CrMo4 steel, 6.4 mm by 32.4 mm, hits a rigid, frictionless wall at 287 m/s: a \
+            benchmark of codes in Lagrangian coordinates, run to 80 us. Johnson-Cook strength; no failure. \
+            n counts the cells across. Length and radii are those of live elements, as in \
+            `taylor-copper`: elements of the rim of the foot that are pressed flat cease to be volumes; \
+            their number is given. The benchmark has no thermal pressure \
+            and a linear elastic law: K = E/(3 (1 - 2 nu)), no Grueneisen coefficient, and the slope of \
+            the Hugoniot of steel, as the solver takes none below 0.85; its heat fraction of 0.9 enters \
+            as the specific heat over 0.9.",
+    source: "DynELA manual, benchmark Taylor: DynELA 26.52 mm and 11.18 mm, Abaqus 26.55 mm and \
+             11.22 mm in three dimensions; `references/taylor_impact.csv`",
+    rod: [0.64, 3.24, 0.0287],
+    material: steel,
+    wanted: [2.65, 0.558],
+    reference: "DynELA, Abaqus",
+    share: 0.02,
+    variants: &[""],
+};
+
+fn copper() -> Material {
+    Material {
+        name: "copper".into(),
+        density: 8.96,
+        eos: EosData::MieGruneisen {
+            c0: 0.394,
+            s: 1.489,
+            gamma_0: 2.02,
+            law: GammaLaw::ConstantProduct,
+            c_v: 0.383e-5,
+            theta_0: 300.0,
+        },
+        strength: Some(Strength {
+            shear_modulus: 0.477,
+            flow: Some(Flow::JohnsonCook {
+                a: 0.0009,
+                b: 0.00292,
+                n: 0.31,
+                c: 0.025,
+                rate_0: 1e-6,
+                m: 1.09,
+                reference: 300.0,
+                melt: 1356.0,
+            }),
+        }),
+        failure: Failure::default(),
+    }
+}
+
+fn steel() -> Material {
+    let (young, poisson, density) = (2.069, 0.3, 7.83);
+    let bulk: f64 = young / (3.0 * (1.0 - 2.0 * poisson));
+    Material {
+        name: "42CrMo4".into(),
+        density,
+        eos: EosData::MieGruneisen {
+            c0: (bulk / density).sqrt(),
+            s: 1.33,
+            gamma_0: 0.0,
+            law: GammaLaw::ConstantProduct,
+            c_v: 0.46e-5 / 0.9,
+            theta_0: 293.15,
+        },
+        strength: Some(Strength {
+            shear_modulus: young / (2.0 * (1.0 + poisson)),
+            flow: Some(Flow::JohnsonCook {
+                a: 0.00806,
+                b: 0.00614,
+                n: 0.168,
+                c: 0.0089,
+                rate_0: 1e-6,
+                m: 1.1,
+                reference: 293.15,
+                melt: 1813.15,
+            }),
+        }),
+        failure: Failure::default(),
+    }
+}
+
+/// Every coefficient of the viscosity times a factor.
+fn varied(method: Method, variant: &str) -> Method {
+    let factor = match variant {
+        HALF => 0.5,
+        TWICE => 2.0,
+        _ => 1.0,
+    };
+    Method {
+        visc_linear: factor * method.visc_linear,
+        visc_quad: factor * method.visc_quad,
+        visc_expansion: factor * method.visc_expansion,
+        ..method
+    }
+}
+
+impl Taylor {
+    fn key(&self, preset: Preset, n: usize) -> RunKey {
+        RunKey::new(self.id, Scheme::preset(preset), n)
+    }
+
+    fn default_key(&self, n: usize) -> RunKey {
+        self.key(Preset::Default, n)
+    }
+}
+
+impl Case for Taylor {
+    fn id(&self) -> &'static str {
+        self.id
+    }
+
+    fn title(&self) -> &'static str {
+        self.title
+    }
+
+    fn about(&self) -> &'static str {
+        self.about
+    }
+
+    fn source(&self) -> &'static str {
+        self.source
+    }
+
+    fn variants(&self) -> &'static [&'static str] {
+        self.variants
+    }
+
+    fn default_size(&self) -> usize {
+        SIZES[0]
+    }
+
+    fn scene(&self, preset: Preset, variant: &str, n: usize) -> AnyScene {
+        let [diameter, length, speed] = self.rod;
+        let along = (length / diameter * n as f64).round() as usize;
+        let material = (self.material)();
+        let shape = Shape::Cylinder { diameter, length };
+        let rod = Body {
+            velocity: [0.0, 0.0, -speed],
+            ..resting(&material.name, shape, [n, n, along], [0.0, 0.0, 0.5 * length])
+        };
+        Scene {
+            name: self.id.into(),
+            units: Units::CmGUsMbar,
+            stop_time: STOP,
+            method: varied(preset.space(), variant),
+            walls: vec![Wall { axis: 2, position: 0.0, material: Side::Above, hold: Hold::Rest }],
+            materials: vec![material],
+            bodies: vec![rod],
+        }
+        .into()
+    }
+
+    fn measure_space(
+        &self,
+        scene: &Scene,
+        _: &RunKey,
+        driver: &mut SpaceDriver<'_>,
+    ) -> Result<Findings, RunError> {
+        let [_, length, _] = self.rod;
+        let mut discs = Discs::new(driver.solver());
+        let mut history = Columns::default();
+        let mut rod = Rod::default();
+        let mut foot = [f64::NAN; 2];
+        for k in 0..=ENTRIES {
+            driver.advance_to(scene.stop_time * k as f64 / ENTRIES as f64)?;
+            let balance = driver.balance();
+            rod = discs.look(driver.solver());
+            foot = rod.sections.first().map_or(foot, |s| [s.radius, s.left]);
+            history.row([
+                ("time", driver.solver().time()),
+                ("length", MM * rod.length),
+                ("foot", MM * foot[0]),
+                ("foot_left", MM * foot[1]),
+                ("reach", MM * rod.reach),
+                ("kinetic", balance.now.kinetic / balance.initial.kinetic),
+                ("momentum", balance.now.momentum[2]),
+                ("dead", driver.solver().failed().1 as f64),
+            ]);
+        }
+        let lengths = history.column("length");
+        let shortest = lengths.iter().copied().fold(f64::INFINITY, f64::min);
+        // A rod that has left the wall rings.
+        let (last, _) = moments(&lengths[lengths.len() - ENTRIES / 4..]);
+        let strains = driver.solver().all_elements().filter(|e| e.live).map(|e| e.strain);
+        let mut findings = Findings::default();
+        let mut enter = |name: &str, value: f64| findings.norms.insert(name.into(), value);
+        enter("length_ratio", last / (MM * length));
+        enter("length_mm", last);
+        enter("shortest_mm", shortest);
+        enter("foot_radius_mm", MM * foot[0]);
+        enter("foot_left_mm", MM * foot[1]);
+        enter("foot_reach_mm", MM * rod.reach);
+        enter("bulge_radius_mm", MM * rod.radius_at(BULGE * length));
+        enter("largest_strain", strains.fold(0.0, f64::max));
+        enter("dead_elements", driver.solver().failed().1 as f64);
+        let mut profile = Columns::default();
+        for section in rod.sections.iter().filter(|s| s.height.is_finite()) {
+            profile.row([("height", MM * section.height), ("radius", MM * section.radius)]);
+        }
+        findings.history = Some(history.series());
+        findings.profile = Some(profile.series());
+        Ok(findings)
+    }
+
+    fn draws(&self, _: &RunKey) -> bool {
+        true
+    }
+
+    fn runs(&self, level: Level) -> Vec<RunKey> {
+        let mut keys = vec![self.default_key(SIZES[0])];
+        if level >= Level::Standard {
+            let others = self.variants[1..].iter();
+            keys.extend(others.map(|v| self.default_key(SIZES[0]).variant(v)));
+            keys.push(self.default_key(SIZES[1]));
+            keys.push(self.key(Preset::Paper, SIZES[0]));
+        }
+        keys
+    }
+
+    fn claims(&self) -> Vec<Claim> {
+        let mut out = Vec::new();
+        let plain = || self.default_key(SIZES[0]);
+        let issue = Claims::new(self.id, Kind::Verification, Weight::Must, "issue");
+        if self.id == COPPER {
+            let others = [
+                ("12 against 8 cells across", self.default_key(SIZES[1])),
+                ("half the viscosity", plain().variant(HALF)),
+                ("twice the viscosity", plain().variant(TWICE)),
+            ];
+            // 0.01 of the initial length, over a final length of two thirds of it.
+            for (text, key) in others {
+                out.push(issue.claim(
+                    format!("final length, {text}: change"),
+                    Quantity::Change(key, plain(), "length_ratio"),
+                    Wanted::WithinZero(0.015),
+                ));
+            }
+        }
+        let aim = Claims::new(self.id, Kind::Validation, Weight::Aim, self.reference);
+        let codes = Claims { kind: Kind::Comparison, weight: Weight::Must, ..aim };
+        let claims = if self.id == COPPER { aim } else { codes };
+        for n in SIZES {
+            let names = [("length_mm", "final length"), ("foot_radius_mm", "foot radius")];
+            for ((name, text), wanted) in names.into_iter().zip(self.wanted) {
+                out.push(claims.claim(
+                    format!("{text} in mm, n = {n}, `default`"),
+                    Quantity::Norm(self.default_key(n), name),
+                    Wanted::Near(MM * wanted, self.share),
+                ));
+            }
+        }
+        out.extend(super::conservation_in_space(self.id, &plain()));
+        out
+    }
+
+    fn tabulated(&self) -> &'static [(&'static str, &'static str)] {
+        &[
+            ("length_mm", "length, mm"),
+            ("length_ratio", "length / initial"),
+            ("shortest_mm", "shortest, mm"),
+            ("foot_radius_mm", "foot radius, mm"),
+            ("foot_left_mm", "foot of live elements, mm"),
+            ("foot_reach_mm", "reach, mm"),
+            ("bulge_radius_mm", "radius at 0.2 L, mm"),
+            ("largest_strain", "largest plastic strain"),
+            ("dead_elements", "dead elements"),
+        ]
+    }
+
+    fn quantities(&self) -> &'static [(&'static str, &'static str)] {
+        &[("length_mm", "final length, mm"), ("foot_radius_mm", "foot radius, mm")]
+    }
+
+    fn figures(&self, records: &Records) -> Vec<Figure> {
+        let [mut length, mut foot, mut shape] = [
+            ("time, µs", "length, mm"),
+            ("time, µs", "foot radius, mm"),
+            ("height, mm", "radius, mm"),
+        ]
+        .map(|(x, y)| Panel::new("", Axis::linear(x), Axis::linear(y)));
+        let defaults = SIZES.map(|n| (format!("default, n = {n}"), self.default_key(n)));
+        let paper = [("paper".to_owned(), self.key(Preset::Paper, SIZES[0]))];
+        let mut any = false;
+        for (name, key) in defaults.into_iter().chain(paper) {
+            let Some(record) = records.get(&key) else { continue };
+            let (Some(history), Some(profile)) = (&record.history, &record.profile) else {
+                continue;
+            };
+            any = true;
+            length = length.with(Curve::line(&name, history.points("time", "length")));
+            foot = foot.with(Curve::line(&name, history.points("time", "foot")));
+            shape = shape.with(Curve::line(&name, profile.points("height", "radius")));
+        }
+        let [length, foot] = [(length, 0), (foot, 1)].map(|(panel, k)| {
+            let wanted = MM * self.wanted[k];
+            panel.with(Layer::Span {
+                along: Along::Horizontal,
+                limits: (wanted * (1.0 - self.share), wanted * (1.0 + self.share)),
+                name: format!("{}, ± {} %", self.reference, 100.0 * self.share),
+            })
+        });
+        let caption = "Length, foot radius, and final shape: radii of the discs with the area of the \
+                       sections.";
+        let figure = Figure::new(format!("{}-shape", self.id), caption, vec![length, foot, shape]);
+        if any { vec![figure] } else { Vec::new() }
+    }
+}
