@@ -26,6 +26,9 @@ const SKIN: f64 = 0.8;
 /// Half cells between parts of a body that may touch by folding.
 const FOLD: i16 = 12;
 
+/// Smallest sound speed over the velocity of approach.
+const COLDEST: f64 = 1e-9;
+
 /// Overlap beyond which the force of a contact rises no more, as a share of the distance of contact.
 const DEEPEST: f64 = 0.8;
 
@@ -469,7 +472,8 @@ impl Contacts {
 /// Coefficient of the viscous force over impedance, Eq. (53), or that of the limited viscosity: a
 /// contact has no neighbours that could explain its jump. `slope` is that of the shock speed.
 pub(super) fn steepness(method: &Method, approach: f64, sound: f64, slope: f64) -> f64 {
-    let sound = sound.max(1e-300);
+    // Of cold gas, whose impedance is nothing, the coefficient must still be a number.
+    let sound = sound.max(COLDEST * approach);
     match method.viscosity {
         Viscosity::Pairwise => method.visc_linear * (1.0 + method.visc_quad * approach / sound),
         Viscosity::Limited => {

@@ -527,7 +527,8 @@ impl Group {
             let closing = (-pyramids[k].rate(v, face)).max(F::zero()).keep(self.live);
             let volume = (opening[k] + 1.0).max(F::splat(0.05));
             let factor = 9.0 * laws.method.visc_volume * body.rho_0;
-            let square = closing * closing / dot(&pyramids[k].area, &pyramids[k].area);
+            let area = dot(&pyramids[k].area, &pyramids[k].area).max(F::splat(f64::MIN_POSITIVE));
+            let square = closing * closing / area;
             let q = square * factor / (volume * volume);
             if let Some(stiff) = &mut self.stiff {
                 stiff[k] = q.pack();

@@ -342,6 +342,10 @@ impl Simulation {
         [
             self.element_work,
             self.element_heat,
+            self.spring_work,
+            self.spring_heat,
+            h.hourglass,
+            h.spring,
             walls.work,
             ix,
             iy,
@@ -362,27 +366,23 @@ impl Simulation {
             h.tension,
             h.momentum_scale,
             h.angular_scale,
-            h.hourglass,
-            h.spring,
-            self.spring_work,
-            self.spring_heat,
         ]
     }
 
     fn set_books(&mut self, books: &[f64]) {
         let Ok(b) = <[f64; 26]>::try_from(books) else { return };
         (self.element_work, self.element_heat) = (b[0], b[1]);
+        (self.spring_work, self.spring_heat) = (b[2], b[3]);
         let walls = &mut self.walls_gave;
-        walls.work = b[2];
-        walls.impulse = [b[3], b[4], b[5]];
-        walls.moment = [b[6], b[7], b[8]];
+        walls.work = b[6];
+        walls.impulse = [b[7], b[8], b[9]];
+        walls.moment = [b[10], b[11], b[12]];
         let h = &mut self.initial;
-        h.mass = b[9];
-        h.momentum = [b[10], b[11], b[12]];
-        h.angular = [b[13], b[14], b[15]];
-        (h.kinetic, h.internal, h.shear, h.tension) = (b[16], b[17], b[18], b[19]);
-        (h.momentum_scale, h.angular_scale, h.hourglass) = (b[20], b[21], b[22]);
-        (h.spring, self.spring_work, self.spring_heat) = (b[23], b[24], b[25]);
+        (h.hourglass, h.spring, h.mass) = (b[4], b[5], b[13]);
+        h.momentum = [b[14], b[15], b[16]];
+        h.angular = [b[17], b[18], b[19]];
+        (h.kinetic, h.internal, h.shear, h.tension) = (b[20], b[21], b[22], b[23]);
+        (h.momentum_scale, h.angular_scale) = (b[24], b[25]);
     }
 
     /// Counters, and the piece that decides the next step.

@@ -14,8 +14,8 @@ const CRUSHED: f64 = 0.2;
 /// Smallest thickness of a sound and of a failed element of a solid, over its shortest edge.
 const FLAT: [f64; 2] = [0.2, 0.35];
 
-/// The same of a gas, which has no largest compression.
-const GAS: f64 = 1e-3;
+/// Smallest pyramid and thickness of a gas's: a third of what the spherical Noh shock makes of it.
+const GAS: [f64; 2] = [0.005, 0.05];
 
 /// Sweeps of the return map after which it gives up; two are enough nearly always.
 const SWEEPS: usize = 20;
@@ -73,8 +73,8 @@ impl Solid {
             compression: material.failure.compression,
             spall: or_never(material.failure.spall.filter(|_| method.spall)),
             release: method.release,
-            crushed: if bulk > 0.0 { CRUSHED } else { GAS },
-            flat: if bulk > 0.0 { FLAT } else { [GAS; 2] },
+            crushed: if bulk > 0.0 { CRUSHED } else { GAS[0] },
+            flat: if bulk > 0.0 { FLAT } else { [GAS[1]; 2] },
             sound: ((bulk + 4.0 / 3.0 * mu) / material.density).sqrt(),
             edge: lattice.size.iter().copied().fold(f64::INFINITY, f64::min),
         }

@@ -263,6 +263,9 @@ impl Surfaces {
         let velocity = |i: usize| [state.vx[i], state.vy[i], state.vz[i]];
         let mut rate = 0.0f64;
         for spring in &mut self.springs {
+            if spring.stand < CLOSE * full_stand(mesh, [spring.body, spring.other]) {
+                continue;
+            }
             let approach = spring.approach(mesh, velocity);
             rate = rate.max(approach / (APPROACH * spring.distance.max(DEEPEST * spring.stand)));
             let z = spring.distance / spring.stand;
@@ -417,8 +420,7 @@ impl Surfaces {
             let Some(mut spring) = nearest_face((mesh, contacts), member, &one, &node) else {
                 continue;
             };
-            let edges = mesh.bodies[one.body].edge() + mesh.bodies[node.body].edge();
-            let full = STAND * 0.5 * edges;
+            let full = full_stand(mesh, [one.body, node.body]);
             let stand = &mut self.stand[member];
             *stand = if *stand < CLOSE * full {
                 spring.distance.min(full)
@@ -431,6 +433,11 @@ impl Surfaces {
             }
         }
     }
+}
+
+/// Distance at which the surfaces of two bodies feel each other.
+fn full_stand(mesh: &Mesh, bodies: [usize; 2]) -> f64 {
+    0.5 * STAND * (mesh.bodies[bodies[0]].edge() + mesh.bodies[bodies[1]].edge())
 }
 
 /// Impedance times area, and sound speed: means of the particle and the surface. A particle stands for

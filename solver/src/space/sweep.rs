@@ -12,8 +12,8 @@ const THINNEST: f64 = 0.3;
 /// Largest relative change of the density in a step, under pressure.
 const DENSEST_STEP: f64 = 0.08;
 
-/// Smallest volume of a particle's elements over its reference volume.
-const SMALLEST: f64 = 0.1;
+/// Smallest volume of a particle's elements over that of elements that are crushed.
+const SMALLEST: f64 = 0.5;
 
 /// Rate at which a free fragment loses its compression, in sound crossings of its contact length.
 const RELAXATION: f64 = 0.07;
@@ -262,7 +262,8 @@ impl<F: Lanes> Eight<'_, F> {
         let (at, rho) = (self.at, now.rho);
         let response = self.body.eos.respond(rho, now.u);
         let reference = self.mass * (1.0 / self.body.rho_0);
-        let whole = (reference + self.ratio * volume).max(reference * SMALLEST);
+        let least = reference * (SMALLEST * self.body.solid.crushed);
+        let whole = (reference + self.ratio * volume).max(least);
         let dilate = (rho / whole).keep(self.ratio.gt(zero));
         let per_density = response.pressure * self.mass / (rho * rho);
         let sound = response.sound_squared.sqrt();

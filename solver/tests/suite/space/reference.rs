@@ -857,6 +857,11 @@ impl Plain {
     fn spring(&mut self) {
         for k in 0..self.springs.len() {
             let s = &self.springs[k];
+            let bodies = [self.particles[s.particle].body, self.elements[s.element].body];
+            let edges = self.bodies[bodies[0]].edge + self.bodies[bodies[1]].edge;
+            if s.stand < 0.0625 * edges {
+                continue;
+            }
             let p = |i: usize| &self.particles[i];
             let parts = s.parts();
             let velocity = parts.iter().map(|&(i, share)| times(self.velocity(i), share));
