@@ -494,7 +494,8 @@ impl View<'_> {
         let square = r[0] * r[0] + r[1] * r[1] + r[2] * r[2];
         let body = bodies.map(|b| &self.mesh.bodies[b]);
         let widest = body[0].length.max(body[1].length) * self.method.reach();
-        if square >= widest * widest {
+        // Two particles that a corner of walls stops at one point have no direction to part in.
+        if square >= widest * widest || square == 0.0 {
             return None;
         }
         let distance = square.sqrt();
