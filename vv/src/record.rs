@@ -115,7 +115,11 @@ impl Series {
 mod nullable {
     use std::collections::BTreeMap;
 
+    use serde::de::Error;
     use serde::{Deserialize, Deserializer};
+    use serde_json::Value;
+
+    use super::SpaceRecord;
 
     type Maybe = Option<f64>;
 
@@ -132,6 +136,25 @@ mod nullable {
     ) -> Result<BTreeMap<String, f64>, D::Error> {
         let read = BTreeMap::<String, Maybe>::deserialize(from)?;
         Ok(read.into_iter().map(|(name, value)| (name, or_nan(value))).collect())
+    }
+
+    /// A balance in which a number is none is no balance.
+    pub(super) fn space<'de, D: Deserializer<'de>>(
+        from: D,
+    ) -> Result<Option<SpaceRecord>, D::Error> {
+        fn has_null(value: &Value) -> bool {
+            match value {
+                Value::Null => true,
+                Value::Array(all) => all.iter().any(has_null),
+                Value::Object(all) => all.values().any(has_null),
+                _ => false,
+            }
+        }
+        let read = Value::deserialize(from)?;
+        if has_null(&read) {
+            return Ok(None);
+        }
+        serde_json::from_value(read).map(Some).map_err(D::Error::custom)
     }
 
     pub(super) fn columns<'de, D: Deserializer<'de>>(
@@ -193,7 +216,11 @@ pub struct RunRecord {
     /// Final balance; absent for the Godunov code.
     pub ledger: Option<Ledger>,
     /// What only runs in space have.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        deserialize_with = "nullable::space"
+    )]
     pub space: Option<SpaceRecord>,
     /// Fields at the end, where a figure needs them.
     pub profile: Option<Series>,
