@@ -3,7 +3,7 @@
 //!
 //! Members are the particles that can take part: with elements that carry the pressure, those on
 //! surfaces and of dead elements, and two layers below; without, all. A list of pairs in reach is
-//! kept until motion makes it stale. Where [`super::surfaces`] keep two particles apart, no pair does.
+//! kept until motion makes it stale. Where `surfaces` keep two particles apart, no pair does.
 
 use rayon::prelude::*;
 

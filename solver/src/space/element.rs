@@ -23,6 +23,10 @@ const CENTRE: usize = 8;
 /// Largest stretch of an element that counts as a volume.
 const TORN: f64 = 4.0;
 
+/// Steepness of the damping of receding bonds: it is whole from where the closing neighbours, over the
+/// bond's own jump, reach half the inverse of this and of the limiter's.
+const RINGING: f64 = 4.0;
+
 /// Expansion at which a failed element ceases to count as a volume.
 const OPEN: f64 = 1.2;
 
@@ -703,7 +707,7 @@ impl Group {
             let mean = before * beyond * method.limiter / ((before + beyond) * own);
             let explained = mean.min(F::splat(1.0)).keep(behind.gt(zero) & ahead.gt(zero));
             // What recedes is damped only as far as both neighbours close: it rings, and does not flow.
-            let rings = (-mean).min(F::splat(1.0)).keep(behind.lt(zero) & ahead.lt(zero));
+            let rings = (mean * -RINGING).min(F::splat(1.0)).keep(behind.lt(zero) & ahead.lt(zero));
             let part = F::select(own.gt(zero), F::splat(1.0) - explained, rings);
             let jump = (own * part).keep(self.live);
             let speed = jump * inverse.sqrt();

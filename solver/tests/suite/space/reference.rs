@@ -601,7 +601,7 @@ impl Plain {
             let jump = match (own > 0.0, same, rings) {
                 (true, true, _) => own * (1.0 - mean.min(1.0)),
                 (true, false, _) => own,
-                (false, _, true) => own * (-mean).min(1.0),
+                (false, _, true) => own * (-4.0 * mean).min(1.0),
                 (false, _, false) => 0.0,
             };
             let sound = 0.5 * (n.sound + x.sound);
