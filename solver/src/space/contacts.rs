@@ -23,6 +23,9 @@ const BLOCK: usize = 4096;
 /// Margin of the list over the reach of contacts, in contact lengths.
 const SKIN: f64 = 0.8;
 
+/// Flag of members whose pairs are to be looked for.
+const FRESH: u8 = 4;
+
 /// Half cells between parts of a body that may touch by folding.
 const FOLD: i16 = 12;
 
@@ -49,6 +52,8 @@ pub struct Contacts {
     /// Whether elements carry the pressure of the particles that they hold.
     volumes: bool,
     terms: Vec<Vec<[f64; 2]>>,
+    /// Pairs of the list that a surface may keep apart.
+    facing: Vec<[u32; 2]>,
     /// Whether the list must be renewed whatever has moved.
     changed: bool,
     longest: f64,
@@ -63,8 +68,6 @@ pub(super) struct Member {
     pub(super) body: usize,
     /// Its place in the lattice.
     pub(super) place: [i16; 3],
-    /// Whether it can touch any other.
-    pub(super) exposed: bool,
     /// Where it is.
     pub(super) position: [f64; 3],
 }
@@ -112,6 +115,22 @@ fn points<'a>(
     lattice: Option<&'a [[i16; 3]]>,
 ) -> Points<'a> {
     Points { x, y, z, length, flags, body, lattice }
+}
+
+/// Whether two members are ever to be looked at; `place` if elements carry the pressure.
+fn may_touch<'a>(
+    mesh: &'a Mesh,
+    (flags, body): (&'a [u8], &'a [u16]),
+    place: Option<&'a [[i16; 3]]>,
+) -> impl Fn(u32, u32) -> bool + Sync + 'a {
+    move |a, b| {
+        let (a, b) = (a as usize, b as usize);
+        let Some(place) = place.filter(|_| body[a] == body[b]) else { return true };
+        // Live material carries its own pressure: only the far ends of a body that folds touch.
+        let span = (0..3).map(|d| (place[a][d] - place[b][d]).abs()).max();
+        let together = span <= Some(FOLD) && (flags[a] | flags[b]) & DEBRIS == 0;
+        !together && !mesh.bonded(body[a] as usize, place[a], place[b])
+    }
 }
 
 /// A pair in contact in this step.
@@ -200,16 +219,13 @@ impl Contacts {
     pub fn expose(&mut self, mesh: &Mesh, i: usize) {
         let (body, place) = mesh.place(i);
         let member = self.admit(mesh, i);
+        let hidden = self.flags[member] & EXPOSED == 0;
         let debris = if mesh.whole(i) { 0 } else { DEBRIS };
-        self.changed |= self.flags[member] & DEBRIS != debris;
-        if self.flags[member] & EXPOSED != 0 {
-            self.flags[member] |= debris;
-            return;
-        }
-        self.flags[member] |= EXPOSED | debris;
-        self.changed = true;
-        for near in mesh.within_two_cells(body, place) {
-            self.admit(mesh, near);
+        self.flags[member] |= EXPOSED | FRESH | debris;
+        if hidden {
+            for near in mesh.within_two_cells(body, place) {
+                self.admit(mesh, near);
+            }
         }
     }
 
@@ -220,6 +236,7 @@ impl Contacts {
         }
         let (body, place) = mesh.place(i);
         let member = self.members.len();
+        self.changed = true;
         self.index[i] = member as u32;
         self.members.push(i as u32);
         let x = mesh.bodies[body].lattice.position(place);
@@ -240,9 +257,9 @@ impl Contacts {
         particles.zip(bodies).zip(&self.position[axis]).map(|((i, body), &x)| (i, body, x))
     }
 
-    /// Pairs of members that might touch.
-    pub(super) fn list(&self) -> &[[u32; 2]] {
-        self.list.pairs()
+    /// Pairs of members that a surface may keep apart.
+    pub(super) fn facing(&self) -> &[[u32; 2]] {
+        &self.facing
     }
 
     /// A member.
@@ -251,9 +268,20 @@ impl Contacts {
             particle: self.members[at] as usize,
             body: self.body[at] as usize,
             place: self.place[at],
-            exposed: self.flags[at] & EXPOSED != 0,
-            position: self.position.each_ref().map(|x| x[at]),
+            position: self.position(at as u32),
         }
+    }
+
+    /// Where a member is.
+    #[inline(always)]
+    pub(super) fn position(&self, at: u32) -> [f64; 3] {
+        self.position.each_ref().map(|x| x[at as usize])
+    }
+
+    /// Particle that a member is.
+    #[inline(always)]
+    pub(super) fn particle(&self, at: u32) -> usize {
+        self.members[at as usize] as usize
     }
 
     /// The member that a particle is, if it is one.
@@ -273,28 +301,68 @@ impl Contacts {
         self.list.pairs().len()
     }
 
-    /// Moves the members to their present positions and renews the list if it is stale. Returns
-    /// whether it was.
-    pub fn refresh(&mut self, mesh: &Mesh, state: &State, method: &Method) -> bool {
-        let own = [&state.dx, &state.dy, &state.dz];
-        let (members, body, place) = (&self.members, &self.body, &self.place);
-        for (d, own) in own.into_iter().enumerate() {
-            self.position[d].par_chunks_mut(BLOCK).enumerate().for_each(|(k, x)| {
-                for (at, x) in x.iter_mut().enumerate() {
-                    let at = at + k * BLOCK;
-                    let body = &mesh.bodies[body[at] as usize];
-                    let start = body.lattice.coordinate(place[at], d);
-                    *x = start + (body.way[d] + own[members[at] as usize]);
-                }
-            });
-        }
+    /// Moves the members to their present positions and renews the list if it is stale.
+    pub fn refresh(&mut self, mesh: &Mesh, state: &State, method: &Method) {
+        self.follow(mesh, state);
         let lattice = self.volumes.then_some(&self.place[..]);
         let points = points(&self.position, &self.length, &self.flags, &self.body, lattice);
-        if !self.changed && !self.list.is_stale(&points) {
-            return false;
+        if self.changed || self.list.is_stale(&points) {
+            self.renew(mesh, method);
         }
-        self.renew(mesh, method);
-        true
+    }
+
+    /// Moves the members to their present positions.
+    fn follow(&mut self, mesh: &Mesh, state: &State) {
+        let own = [&state.dx, &state.dy, &state.dz];
+        let Self { position: [x, y, z], members, body, place, .. } = self;
+        let columns = (x.par_chunks_mut(BLOCK), y.par_chunks_mut(BLOCK), z.par_chunks_mut(BLOCK));
+        columns.into_par_iter().enumerate().for_each(|(block, (x, y, z))| {
+            let mut at = block * BLOCK;
+            let mut to = x.iter_mut().zip(y).zip(z);
+            for run in body[at..at + to.len()].chunk_by(|a, b| a == b) {
+                let body = &mesh.bodies[run[0] as usize];
+                let steps = body.lattice.steps();
+                let each = members[at..].iter().zip(&place[at..]).zip(to.by_ref());
+                for ((&i, place), ((x, y), z)) in each.take(run.len()) {
+                    let place = place.map(f64::from);
+                    for (d, x) in [x, y, z].into_iter().enumerate() {
+                        let along = |k: usize| steps[k][d] * place[k];
+                        let start = body.lattice.origin[d] + along(0) + along(1) + along(2);
+                        *x = start + (body.way[d] + own[d][i as usize]);
+                    }
+                }
+                at += run.len();
+            }
+        });
+    }
+
+    /// After elements died: lists the pairs of the particles that were exposed.
+    pub fn open(&mut self, mesh: &Mesh, state: &State, method: &Method) {
+        if self.changed {
+            self.refresh(mesh, state, method);
+            return;
+        }
+        let Self { list, flags, body, place, volumes, .. } = self;
+        let keep = may_touch(mesh, (flags, body), volumes.then_some(place));
+        list.extend(|member| flags[member as usize] & FRESH != 0, keep);
+        self.settle(mesh);
+    }
+
+    /// What follows from a list that has changed.
+    fn settle(&mut self, mesh: &Mesh) {
+        self.flags.iter_mut().for_each(|flags| *flags &= !FRESH);
+        self.facing.clear();
+        if !self.volumes || mesh.bodies.len() == 1 {
+            return;
+        }
+        let Self { list, flags, body, members, facing, .. } = self;
+        let apart = |&&[a, b]: &&[u32; 2]| {
+            let pair = [a as usize, b as usize];
+            let exposed = flags[pair[0]] & flags[pair[1]] & EXPOSED != 0;
+            let of = |column: &[u32]| pair.map(|k| column[k] as usize);
+            exposed && surfaces::meet(mesh, of(members), pair.map(|k| body[k] as usize))
+        };
+        facing.extend(list.pairs().iter().filter(apart));
     }
 
     /// Makes the list anew from the present positions.
@@ -305,19 +373,8 @@ impl Contacts {
         let surfaces = if self.volumes { surfaces::REACH } else { 0.0 };
         let factor = method.reach().max(surfaces);
         let reach = Reach { factor, skin: SKIN * self.longest };
-        let (place, flags, body) = (&self.place, &self.flags, &self.body);
-        let volumes = self.volumes;
-        let keep = |a: u32, b: u32| {
-            let (a, b) = (a as usize, b as usize);
-            if !volumes || body[a] != body[b] {
-                return true;
-            }
-            // Live material carries its own pressure: only the far ends of a body that folds touch.
-            let span = (0..3).map(|d| (place[a][d] - place[b][d]).abs()).max();
-            let together = span <= Some(FOLD) && (flags[a] | flags[b]) & DEBRIS == 0;
-            !together && !mesh.bonded(body[a] as usize, place[a], place[b])
-        };
-        self.list.rebuild(&points, reach, keep);
+        self.list.rebuild(&points, reach, may_touch(mesh, (&self.flags, &self.body), lattice));
+        self.settle(mesh);
     }
 
     /// What must outlast a restart.
@@ -397,6 +454,7 @@ impl Contacts {
     ) {
         let kernel = self.kernel.as_ref();
         let view = View { mesh, state, derived, method, kernel, volumes: self.volumes };
+        let widest = (method.reach() * self.longest).powi(2);
         let pairs = self.list.pairs();
         self.blocks.resize_with(pairs.len().div_ceil(BLOCK), Vec::new);
         let (position, members, body) = (&self.position, &self.members, &self.body);
@@ -405,6 +463,9 @@ impl Contacts {
             for &[a, b] in pairs {
                 let (a, b) = (a as usize, b as usize);
                 let r: [f64; 3] = std::array::from_fn(|d| position[d][a] - position[d][b]);
+                if r[0] * r[0] + r[1] * r[1] + r[2] * r[2] >= widest {
+                    continue;
+                }
                 let bodies = [body[a] as usize, body[b] as usize];
                 found.extend(view.contact([members[a], members[b]], r, bodies));
             }
@@ -463,6 +524,7 @@ impl Contacts {
         let blocks: usize = self.blocks.iter().map(Vec::capacity).sum();
         self.members.capacity() * (4 + 24 + 4 + 1 + 2 + 6)
             + self.list.bytes()
+            + 8 * self.facing.capacity()
             + self.kernel.as_ref().map_or(0, Kernel::bytes)
             + 16 * self.terms.iter().map(Vec::capacity).sum::<usize>()
             + blocks * std::mem::size_of::<Active>()

@@ -202,27 +202,41 @@ fn shares<F: Lanes>(pyramids: &[F; 6], balance: f64) -> [F; 9] {
     share
 }
 
-/// Volume of a cell, and the square of twice its largest face.
-#[inline(always)]
-fn extent<F: Lanes>(pyramids: &[Pyramid<F>; 6], body: &Body) -> (F, F) {
-    let mut face = F::zero();
-    let mut volume = F::splat(body.cell_volume);
-    for pyramid in pyramids {
-        face = face.max(dot(&pyramid.area, &pyramid.area));
-        volume += pyramid.growth;
-    }
-    (volume, face)
+/// Volume and faces of a cell.
+#[derive(Debug, Clone, Copy)]
+struct Extent<F> {
+    volume: F,
+    /// Square of twice the largest face.
+    largest: F,
+    /// Sum of the squares of twice the six faces.
+    faces: F,
 }
 
-/// Square of four times the rate at which sound crosses the cell where it is thinnest: the volume over
-/// the largest face. That is the highest frequency of planes of nodes and centroids.
-#[inline(always)]
-fn crossing_squared<F: Lanes>((volume, face): (F, F), body: &Body, sound: &[F; 9]) -> F {
-    let mut fastest = sound[CENTRE];
-    for sound in &sound[..8] {
-        fastest = fastest.max(*sound);
+impl<F: Lanes> Extent<F> {
+    #[inline(always)]
+    fn new(pyramids: &[Pyramid<F>; 6], body: &Body) -> Self {
+        let mut extent =
+            Self { volume: F::splat(body.cell_volume), largest: F::zero(), faces: F::zero() };
+        for pyramid in pyramids {
+            let square = dot(&pyramid.area, &pyramid.area);
+            extent.largest = extent.largest.max(square);
+            extent.faces += square;
+            extent.volume += pyramid.growth;
+        }
+        extent
     }
-    face * fastest * fastest * (4.0 * body.stiffening()) / (volume * volume)
+
+    /// Square of the highest frequency of the cell's pressure: `4 c^2 (A_1^2 + A_2^2 + A_3^2) / V^2`,
+    /// a bound for a lattice of such cells, and met where they are thin (decision 0015).
+    #[inline(always)]
+    fn frequency_squared(&self, sound: &[F; 9]) -> F {
+        let mut fastest = sound[CENTRE];
+        for sound in &sound[..8] {
+            fastest = fastest.max(*sound);
+        }
+        // Of three pairs of faces that come doubled.
+        self.faces * fastest * fastest * 0.5 / (self.volume * self.volume)
+    }
 }
 
 /// Volumes of the pyramids of a cell with these corners about its centre.
@@ -443,8 +457,8 @@ impl Group {
             + ((theta[4] + theta[5]) + (theta[6] + theta[7]));
         let mean = theta[CENTRE] * 0.5 + corners * 0.0625;
 
-        let (volume, face) = extent(&pyramids, body);
-        self.fail(body, &motion, (&opening, volume, face), mean);
+        let extent = Extent::new(&pyramids, body);
+        self.fail(body, &motion, (&opening, &extent), mean);
         let glass = Hourglass::of(&laws.method, body);
         let held = match &glass {
             Some(glass) => glass.energy(&u),
@@ -483,7 +497,7 @@ impl Group {
             if laws.method.visc_volume > 0.0 {
                 self.stiffen(&pyramids, &opening, (&v, body, laws), &mut push);
             }
-            rate_squared = rate_squared.max(crossing_squared((volume, face), body, &sound));
+            rate_squared += extent.frequency_squared(&sound);
             let seen = Seen { y: &y, v: &v, sound: &sound, theta: &theta };
             damping = match laws.method.viscosity {
                 Viscosity::Limited => self.limited(&seen, (body, laws, read), &mut loads),
@@ -547,7 +561,7 @@ impl Group {
         &mut self,
         body: &Body,
         motion: &Kinematics<F>,
-        (opening, volume, face): (&[F; 6], F, F),
+        (opening, extent): (&[F; 6], &Extent<F>),
         theta: F,
     ) {
         let solid = &body.solid;
@@ -568,7 +582,7 @@ impl Group {
         // Faces come doubled.
         let [sound, failed] = solid.flat.map(|share| (0.5 * share * solid.edge).powi(2));
         let least = F::select(self.failed, F::splat(failed), F::splat(sound));
-        let flat = (volume * volume).lt(face * least);
+        let flat = (extent.volume * extent.volume).lt(extent.largest * least);
         self.dying = (crushed | stretched | open | flat) & self.live;
         self.failed |= self.dying;
     }

@@ -242,8 +242,16 @@ impl Lattice {
     #[inline(always)]
     #[must_use]
     pub fn coordinate(&self, at: [i16; 3], d: usize) -> f64 {
-        let along = |k: usize| 0.5 * self.size[k] * f64::from(at[k]) * self.axes[k][d];
+        let steps = self.steps();
+        let along = |k: usize| steps[k][d] * f64::from(at[k]);
         self.origin[d] + along(0) + along(1) + along(2)
+    }
+
+    /// Ways of one half cell along the fast, mid and slow axes.
+    #[inline(always)]
+    #[must_use]
+    pub fn steps(&self) -> [[f64; 3]; 3] {
+        std::array::from_fn(|k| self.axes[k].map(|x| 0.5 * self.size[k] * x))
     }
 
     /// Bytes that it takes.

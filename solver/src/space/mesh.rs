@@ -440,13 +440,6 @@ impl Body {
         2.0 / 3.0 * 8.0 / mass
     }
 
-    /// Square of the longitudinal wave speed over the bulk one's.
-    #[inline(always)]
-    #[must_use]
-    pub fn stiffening(&self) -> f64 {
-        if self.solid.mu > 0.0 { 1.0 + 4.0 / 3.0 * self.solid.mu / self.solid.bulk } else { 1.0 }
-    }
-
     /// Sound speed of its particles in the reference state.
     #[must_use]
     pub fn sound(&self) -> f64 {

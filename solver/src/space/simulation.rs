@@ -412,7 +412,7 @@ impl Simulation {
             for group in &mut self.groups {
                 group.look_beyond_the_dead(&self.mesh.ratio);
             }
-            self.contacts.refresh(&self.mesh, &self.state, &self.method);
+            self.contacts.open(&self.mesh, &self.state, &self.method);
             let u = &mut self.state.u;
             self.spring_heat += self.surfaces.release(&self.mesh, &self.contacts, u);
         }

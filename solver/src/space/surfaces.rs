@@ -188,6 +188,8 @@ pub struct Surfaces {
     springs: Vec<Spring>,
     /// Those of the last step.
     before: Vec<Spring>,
+    /// Whether nothing has moved since they were found.
+    found: bool,
 }
 
 impl Surfaces {
@@ -229,6 +231,7 @@ impl Surfaces {
 
     /// Takes it back.
     pub(super) fn recall(&mut self, mesh: &Mesh, contacts: &Contacts, memory: &Memory) {
+        self.found = false;
         self.stand.clear();
         self.springs.clear();
         for member in 0..contacts.members() {
@@ -259,7 +262,11 @@ impl Surfaces {
         if !self.some {
             return [0.0; 2];
         }
-        let heat = self.renew((mesh, contacts), |i, energy| sums.heat[i] += energy);
+        let heat = if std::mem::take(&mut self.found) {
+            0.0
+        } else {
+            self.renew((mesh, contacts), |i, energy| sums.heat[i] += energy)
+        };
         let velocity = |i: usize| [state.vx[i], state.vy[i], state.vz[i]];
         let mut rate = 0.0f64;
         for spring in &mut self.springs {
@@ -385,6 +392,7 @@ impl Surfaces {
         if !self.some {
             return 0.0;
         }
+        self.found = true;
         self.renew((mesh, contacts), |i, energy| u[i] += energy / mesh.mass[i])
     }
 
@@ -397,16 +405,13 @@ impl Surfaces {
         self.stand.resize(contacts.members(), 0.0);
         self.nearest.clear();
         self.nearest.resize(contacts.members(), (f64::INFINITY, NONE));
-        for &[a, b] in contacts.list() {
-            let (one, other) = (contacts.member(a as usize), contacts.member(b as usize));
-            let bodies = [one.body, other.body];
-            if one.exposed && other.exposed && meet(mesh, [one.particle, other.particle], bodies) {
-                let square = (0..3).map(|d| (one.position[d] - other.position[d]).powi(2)).sum();
-                for (member, node, held) in [(a, b, other.particle), (b, a, one.particle)] {
-                    let nearest = &mut self.nearest[member as usize];
-                    if mesh.held(held) && square < nearest.0 {
-                        *nearest = (square, node);
-                    }
+        for &[a, b] in contacts.facing() {
+            let (one, other) = (contacts.position(a), contacts.position(b));
+            let square = (0..3).map(|d| (one[d] - other[d]).powi(2)).sum();
+            for (member, node) in [(a, b), (b, a)] {
+                let nearest = &mut self.nearest[member as usize];
+                if square < nearest.0 && mesh.held(contacts.particle(node)) {
+                    *nearest = (square, node);
                 }
             }
         }
@@ -463,41 +468,35 @@ fn nearest_face(
     one: &Member,
     node: &Member,
 ) -> Option<Spring> {
-    let mut best: Option<Spring> = None;
+    let mut best: Option<(Nearest, Face)> = None;
     each_face(mesh, node.body, node.place, |face| {
-        let mut spring = Spring::new(mesh, (member, one), node.body, face);
-        if spring.see(contacts) && best.as_ref().is_none_or(|best| spring.distance < best.distance)
-        {
-            best = Some(spring);
+        let Some(near) = Nearest::of(contacts, one.position, &face) else { return };
+        if best.as_ref().is_none_or(|(best, _)| near.square < best.square) {
+            best = Some((near, face));
         }
     });
-    best.filter(|spring| spring.distance > 0.0)
+    let (near, face) = best.filter(|(near, _)| near.square > 0.0)?;
+    let mut spring = Spring::new(mesh, (member, one), node.body, face);
+    spring.lie(&near);
+    Some(spring)
 }
 
 /// Calls for every face of the live surface of a body round a node.
 fn each_face(mesh: &Mesh, body: usize, at: [i16; 3], mut f: impl FnMut(Face)) {
     let own = &mesh.bodies[body];
-    let live = |at: [i16; 3]| {
-        let cell = own.lattice.cell(at);
-        cell != NONE && mesh.held(own.centroids.start + cell as usize)
-    };
-    for corner in 0..8 {
-        let side: [i16; 3] = std::array::from_fn(|d| if corner >> d & 1 == 1 { 1 } else { -1 });
-        let centre: [i16; 3] = std::array::from_fn(|d| at[d] + side[d]);
-        if !live(centre) {
-            continue;
-        }
-        for axis in 0..3 {
-            let mut beyond = centre;
-            beyond[axis] -= 2 * side[axis];
-            if live(beyond) {
-                continue;
-            }
+    let side = |octant: usize, d: usize| if octant >> d & 1 == 1 { 1 } else { -1 };
+    let mut live = 0u8;
+    for (octant, cell) in own.lattice.cells_round(at) {
+        live |= u8::from(mesh.held(own.centroids.start + cell as usize)) << octant;
+    }
+    for octant in (0..8).filter(|octant| live >> octant & 1 == 1) {
+        // The cell beyond the face is another one round the node.
+        for axis in (0..3).filter(|axis| live >> (octant ^ 1 << axis) & 1 == 0) {
             let nodes = [[-1, -1], [1, -1], [1, 1], [-1, 1]].map(|step: [i16; 2]| {
-                let mut node = centre;
-                node[axis] -= side[axis];
-                node[(axis + 1) % 3] += step[0];
-                node[(axis + 2) % 3] += step[1];
+                let mut node = at;
+                for (d, step) in [(axis + 1) % 3, (axis + 2) % 3].into_iter().zip(step) {
+                    node[d] += side(octant, d) + step;
+                }
                 own.nodes.start + own.lattice.node(node) as usize
             });
             f(Face { nodes });
@@ -506,37 +505,104 @@ fn each_face(mesh: &Mesh, body: usize, at: [i16; 3], mut f: impl FnMut(Face)) {
 }
 
 impl Spring {
-    /// Finds the nearest point of the face: four triangles about its middle. Returns whether the
-    /// positions are known.
+    /// Finds the nearest point of the face. Returns whether the positions are known.
     fn see(&mut self, contacts: &Contacts) -> bool {
-        let x = contacts.member(self.member).position;
-        let Some(corners) = corners_of(contacts, &self.face) else { return false };
-        let middle = std::array::from_fn(|d| 0.25 * corners.iter().map(|c| c[d]).sum::<f64>());
-        let mut least = f64::INFINITY;
-        for k in 0..4 {
-            let next = (k + 1) % 4;
-            let (share, r) = nearest_point(x, [corners[k], corners[next], middle]);
-            let square = dot(r, r);
-            if square < least {
-                least = square;
-                self.share = [0.25 * share[2]; 4];
-                self.share[k] += share[0];
-                self.share[next] += share[1];
-                self.distance = square.sqrt();
-                self.way = r.map(|r| r / self.distance);
-            }
-        }
-        true
+        let at = contacts.position(self.member as u32);
+        let near = Nearest::of(contacts, at, &self.face);
+        near.iter().for_each(|near| self.lie(near));
+        near.is_some()
+    }
+
+    /// Takes the nearest point.
+    fn lie(&mut self, near: &Nearest) {
+        self.share = near.share;
+        self.distance = near.square.sqrt();
+        self.way = near.r.map(|r| r / self.distance);
     }
 }
 
-/// Where the corners of a face are, if that is known: those of live surfaces are.
-fn corners_of(contacts: &Contacts, face: &Face) -> Option<[[f64; 3]; 4]> {
-    let mut corners = [[0.0; 3]; 4];
-    for (corner, &node) in corners.iter_mut().zip(&face.nodes) {
-        *corner = contacts.member(contacts.find(node)?).position;
+/// The point of a face that is nearest to a particle.
+#[derive(Debug, Clone, Copy)]
+struct Nearest {
+    /// Shares of the corners.
+    share: [f64; 4],
+    /// From there to the particle.
+    r: [f64; 3],
+    /// Square of its length.
+    square: f64,
+}
+
+impl Nearest {
+    /// Of a face, four triangles about its middle, if it is known where its corners are: those of live
+    /// surfaces are.
+    fn of(contacts: &Contacts, x: [f64; 3], face: &Face) -> Option<Self> {
+        let mut corners = [[0.0; 3]; 4];
+        for (corner, &node) in corners.iter_mut().zip(&face.nodes) {
+            *corner = contacts.position(contacts.find(node)? as u32);
+        }
+        let middle = std::array::from_fn(|d| 0.25 * corners.iter().map(|c| c[d]).sum::<f64>());
+        let (r, e) = (minus(x, middle), corners.map(|corner| minus(corner, middle)));
+        let (rr, ee, re) = (dot(r, r), e.map(|e| dot(e, e)), e.map(|e| dot(r, e)));
+        let (mut best, mut at) = ([f64::INFINITY, 0.0, 0.0], 0);
+        for k in 0..4 {
+            let next = (k + 1) % 4;
+            let triangle = Triangle {
+                rr,
+                ee: [ee[k], ee[next]],
+                ef: dot(e[k], e[next]),
+                re: [re[k], re[next]],
+            };
+            let nearest = triangle.nearest();
+            if nearest[0] < best[0] {
+                (best, at) = (nearest, k);
+            }
+        }
+        let [_, v, w] = best;
+        let mut share = [0.25 * (1.0 - v - w); 4];
+        share[at] += v;
+        share[(at + 1) % 4] += w;
+        let r =
+            std::array::from_fn(|d| x[d] - (0..4).map(|k| share[k] * corners[k][d]).sum::<f64>());
+        Some(Self { share, r, square: dot(r, r) })
     }
-    Some(corners)
+}
+
+/// A triangle with a corner at the origin, and a point, by their products: of the point `r` with itself,
+/// of the sides `e` and `f` from the origin with themselves and each other, of the point with both.
+struct Triangle {
+    rr: f64,
+    ee: [f64; 2],
+    ef: f64,
+    re: [f64; 2],
+}
+
+impl Triangle {
+    /// Square of the distance, and the shares of both sides in the nearest point.
+    fn nearest(&self) -> [f64; 3] {
+        let Self { rr, ee: [ee, ff], ef, re: [re, rf] } = *self;
+        let area = ee * ff - ef * ef;
+        let (v, w) = (ff * re - ef * rf, ee * rf - ef * re);
+        if area > 0.0 && v >= 0.0 && w >= 0.0 && v + w <= area {
+            let (v, w) = (v / area, w / area);
+            return [rr - v * re - w * rf, v, w];
+        }
+        // On an edge that begins at square `rr`, of square length `ll`, with the product `rl`.
+        let edge = |rr: f64, rl: f64, ll: f64| {
+            let t = (rl / ll.max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+            (rr - t * (2.0 * rl - t * ll), t)
+        };
+        let (first, v) = edge(rr, re, ee);
+        let (second, w) = edge(rr, rf, ff);
+        let (third, t) = edge(rr - 2.0 * re + ee, rf - re - ef + ee, ee + ff - 2.0 * ef);
+        let mut best = [first, v, 0.0];
+        if second < best[0] {
+            best = [second, 0.0, w];
+        }
+        if third < best[0] {
+            best = [third, 1.0 - t, t];
+        }
+        best
+    }
 }
 
 fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
@@ -545,35 +611,4 @@ fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
 
 fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-/// Shares of the corners in the point of a triangle nearest to `x`, and the way from there to `x`.
-fn nearest_point(x: [f64; 3], corners: [[f64; 3]; 3]) -> ([f64; 3], [f64; 3]) {
-    let away = |share: [f64; 3]| {
-        let point = |d: usize| (0..3).map(|k| share[k] * corners[k][d]).sum::<f64>();
-        (share, std::array::from_fn(|d| x[d] - point(d)))
-    };
-    let (e, f, r) =
-        (minus(corners[1], corners[0]), minus(corners[2], corners[0]), minus(x, corners[0]));
-    let (ee, ef, ff, re, rf) = (dot(e, e), dot(e, f), dot(f, f), dot(r, e), dot(r, f));
-    let area = ee * ff - ef * ef;
-    let (v, w) = (ff * re - ef * rf, ee * rf - ef * re);
-    if area > 0.0 && v >= 0.0 && w >= 0.0 && v + w <= area {
-        let (v, w) = (v / area, w / area);
-        return away([1.0 - v - w, v, w]);
-    }
-    let edge = |a: usize, b: usize| {
-        let along = minus(corners[b], corners[a]);
-        let length = dot(along, along);
-        let t = dot(minus(x, corners[a]), along) / length.max(f64::MIN_POSITIVE);
-        let t = t.clamp(0.0, 1.0);
-        let mut share = [0.0; 3];
-        share[a] = 1.0 - t;
-        share[b] = t;
-        away(share)
-    };
-    let nearer = |a: ([f64; 3], [f64; 3]), b: ([f64; 3], [f64; 3])| {
-        if dot(b.1, b.1) < dot(a.1, a.1) { b } else { a }
-    };
-    nearer(nearer(edge(0, 1), edge(1, 2)), edge(2, 0))
 }

@@ -70,6 +70,30 @@ impl Grid {
         &self.all[start..start + (before[1] - before[0]) as usize]
     }
 
+    /// Members of a cell and of all cells that touch it.
+    pub(super) fn round(&self, cell: usize) -> impl Iterator<Item = &Member> {
+        let row = 1 << self.bits[0];
+        let plane = 1 << (self.bits[0] + self.bits[1]);
+        let key = self.keys[cell];
+        let first = |key: u64| self.keys.partition_point(|&own| own < key);
+        let round = |step: u64| [0u64.wrapping_sub(step), 0, step];
+        round(plane).into_iter().flat_map(move |out| {
+            round(row).into_iter().flat_map(move |up| {
+                // Cells have a margin on all sides: no row begins before the first key.
+                let middle = key.wrapping_add(out).wrapping_add(up);
+                let cells = [middle - MARGIN, middle + MARGIN + 1].map(first);
+                &self.all[self.start[cells[0]] as usize..self.start[cells[1]] as usize]
+            })
+        })
+    }
+
+    /// Whether two members were within reach of each other when they were sorted.
+    #[inline(always)]
+    pub(super) fn in_reach(&self, one: &Member, other: &Member) -> bool {
+        let square: f64 = (0..3).map(|k| ((one.at[k] - other.at[k]) * self.scale).powi(2)).sum();
+        square < f64::from(one.limit.max(other.limit))
+    }
+
     /// Takes all members out.
     pub(super) fn clear(&mut self) {
         self.all.clear();

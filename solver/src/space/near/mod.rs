@@ -80,6 +80,8 @@ pub struct PairList {
     slots: Vec<Slot>,
     joiner: Joiner,
     pairs: Vec<[u32; 2]>,
+    /// Pairs to be added.
+    batch: Vec<[u32; 2]>,
     counters: Counters,
     /// Members that the list was made for.
     members: Option<usize>,
@@ -171,6 +173,26 @@ impl PairList {
         self.counters.pairs += join::merge(&mut self.pairs, batch) as u64;
     }
 
+    /// Adds the pairs of members that have become able to touch, at the places and within the reach
+    /// for which the list was made: what a list made anew at those places would have besides.
+    /// `keep(i, j)`, with `i < j`, is asked about each; one of the two is `fresh`.
+    pub fn extend(&mut self, fresh: impl Fn(u32) -> bool, keep: impl Fn(u32, u32) -> bool) {
+        let mut batch = std::mem::take(&mut self.batch);
+        batch.clear();
+        for cell in 0..self.grid.keys.len() {
+            for member in self.grid.members(cell as u32).iter().filter(|one| fresh(one.id)) {
+                for other in self.grid.round(cell).filter(|other| other.id != member.id) {
+                    let pair = [member.id.min(other.id), member.id.max(other.id)];
+                    if self.grid.in_reach(member, other) && keep(pair[0], pair[1]) {
+                        batch.push(pair);
+                    }
+                }
+            }
+        }
+        self.insert(&mut batch);
+        self.batch = batch;
+    }
+
     /// Whether two members not listed may be closer than `factor * max(length)`: never `false` if
     /// they are. Always `true` before the first rebuild and if the number of members has changed.
     pub fn is_stale(&mut self, points: &Points<'_>) -> bool {
@@ -186,7 +208,7 @@ impl PairList {
     #[must_use]
     pub fn bytes(&self) -> usize {
         let slots: usize = self.slots.iter().map(Slot::bytes).sum();
-        let lists = held(&self.pairs) + self.joiner.bytes();
+        let lists = held(&self.pairs) + held(&self.batch) + self.joiner.bytes();
         self.grid.bytes() + self.motion.bytes() + slots + lists
     }
 

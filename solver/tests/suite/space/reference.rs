@@ -493,13 +493,14 @@ impl Plain {
         let references: Vec<f64> = faces.iter().map(|&face| pyramid(&rest, face)).collect();
         let opening: Vec<f64> = (0..6).map(|k| volumes[k] / references[k] - 1.0).collect();
         let volume: f64 = volumes.iter().sum();
-        let widest_face = faces
+        let areas: Vec<f64> = faces
             .iter()
             .map(|face| {
                 let [a, b, c, d] = face.map(|k| now[k]);
-                norm(cross(sub(c, a), sub(d, b)))
+                0.5 * norm(cross(sub(c, a), sub(d, b)))
             })
-            .fold(0.0, f64::max);
+            .collect();
+        let widest_face = areas.iter().copied().fold(0.0, f64::max);
         let warmth: Vec<f64> = slots.iter().map(|&i| self.particles[i].theta).collect();
         let theta = 0.5 * warmth[8] + warmth[..8].iter().sum::<f64>() / 16.0;
         let stretch = q * trace(&c) / 3.0 * q.max(1.0);
@@ -516,7 +517,7 @@ impl Plain {
         let pulled = method.spall && failure.spall.is_some_and(|limit| pull > limit);
         element.failed |= spent || crushed || pulled;
         let thinnest = if element.failed { 0.35 } else { 0.2 };
-        let flat = volume < widest_face * 0.5 * thinnest * solid.edge;
+        let flat = volume < widest_face * thinnest * solid.edge;
         element.dying = crushed || flat || stretch > 16.0 || element.failed && jacobian > 1.2;
         element.failed |= element.dying;
 
@@ -580,8 +581,8 @@ impl Plain {
             }
         }
         let fastest = slots.iter().map(|&i| self.particles[i].sound).fold(0.0, f64::max);
-        let stiffening = 1.0 + 4.0 / 3.0 * solid.mu / solid.bulk;
-        squared = squared.max((widest_face * fastest * 2.0 / volume).powi(2) * stiffening);
+        let squares: f64 = areas.iter().map(|area| area * area).sum();
+        squared += 2.0 * squares * (fastest / volume).powi(2);
 
         // Limited viscosity and the heat flux in shocks.
         let area = 0.75 * solid.volume.powf(2.0 / 3.0);

@@ -29,6 +29,35 @@ proptest! {
     }
 
     #[test]
+    fn members_that_open_later_are_listed_as_if_they_had_been_open(
+        cloud in clouds(),
+        every in 1..7_u32,
+        skin in prop_oneof![Just(0.0), Just(0.7)],
+    ) {
+        let reach = Reach { factor: 1.12, skin };
+        let far = reach.factor * cloud.longest() + skin;
+        let keep = |i: u32, j: u32| !(i + j).is_multiple_of(5);
+        let fresh = |i: u32| i.is_multiple_of(every);
+        let mut list = PairList::new();
+        list.rebuild(&cloud.points(), reach, keep);
+        let mut open = cloud.clone();
+        for (i, flags) in (0..).zip(&mut open.flags) {
+            *flags |= if fresh(i) { EXPOSED } else { 0 };
+        }
+        list.extend(fresh, keep);
+        prop_assert!(is_strictly_sorted(list.pairs()));
+        let kept = |mut pairs: Vec<[u32; 2]>| {
+            pairs.retain(|&[i, j]| keep(i, j));
+            pairs
+        };
+        prop_assert!(lists_all(&list, &kept(open.brute(reach.factor, skin))));
+        let allowed = kept(open.brute(reach.factor, skin + 3e-5 * far));
+        for pair in list.pairs() {
+            prop_assert!(allowed.binary_search(pair).is_ok(), "{pair:?}");
+        }
+    }
+
+    #[test]
     fn inserts_pairs_at_their_places(
         cloud in clouds(),
         extra in prop::collection::vec((0..300_u32, 1..300_u32), 0..40),
