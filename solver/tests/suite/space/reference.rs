@@ -1111,7 +1111,9 @@ fn flow(
             alpha * kappa * yield_stress(element.strain) / (1.0 + kappa * element.strain);
         let measure = 2.0 / 3f64.sqrt();
         let step = gap / (modulus * normal + hardening * measure);
-        element.plastic = plus(&element.plastic, step / size(&driver), &direction);
+        let flowed = plus(&c, 2.0 * step / size(&driver), &direction);
+        let isochoric = scaled(&flowed, determinant(&flowed).powf(-1.0 / 3.0));
+        element.plastic = scaled(&plus(&isochoric, -1.0, &ONE), 0.5);
         element.strain = (element.strain + step * measure).max(before);
     }
 }
