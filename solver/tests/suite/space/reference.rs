@@ -1072,9 +1072,24 @@ fn eos(solid: &Solid, rho: f64, u: f64) -> (f64, f64, f64) {
     let pressure = (p_cold + product * u).max(0.0);
     let squared = (slope + pressure * product / (rho * rho)).max(0.25 * solid.c0 * solid.c0);
     let eta = eta.min(cap);
-    let cubic = 2.0 / 3.0 * (2.0 * solid.s - 0.5 * solid.gamma) + solid.gamma / 3.0;
-    let u_cold = 0.5 * (solid.c0 * eta).powi(2) * (1.0 + cubic * eta);
-    (pressure, squared.sqrt(), solid.theta_0 + (u - u_cold).max(0.0) / solid.c_v)
+    (pressure, squared.sqrt(), solid.theta_0 + (u / solid.c_v + isentrope(solid, eta)).max(0.0))
+}
+
+/// `theta_s - theta_0 - u_s / c_v` on the isentrope through the reference state: twelve terms of
+/// `theta_s = theta_0 exp(Gamma_o eta)` and of the solution of
+/// `u' = c0^2 eta (1 - Gamma_o eta / 2) / (1 - s eta)^2 + Gamma_o u`.
+fn isentrope(solid: &Solid, eta: f64) -> f64 {
+    let (mut heating, mut energy, mut sum) = (solid.theta_0, 0.0, 0.0);
+    for n in 1..=12 {
+        let k = f64::from(n) - 1.0;
+        heating *= solid.gamma / f64::from(n);
+        let shock =
+            k * solid.s.powf(k - 1.0) - 0.5 * solid.gamma * (k - 1.0) * solid.s.powf(k - 2.0);
+        let pushed = if n > 1 { solid.c0 * solid.c0 * shock } else { 0.0 };
+        energy = (pushed + solid.gamma * energy) / f64::from(n);
+        sum += (heating - energy / solid.c_v) * eta.powi(n);
+    }
+    sum
 }
 
 /// Plastic flow of the von Mises reading until the effective stress lies on the yield surface.
