@@ -604,7 +604,7 @@ impl View<'_> {
             let approach = -(r[0] * v[0] + r[1] * v[1] + r[2] * v[2]) / distance;
             if approach > 0.0 {
                 let slope = 0.5 * (body[0].slope + body[1].slope);
-                let sound = 0.5 * (self.derived.sound[i] + self.derived.sound[j]);
+                let sound = 0.5 * (self.sound(i, bodies[0]) + self.sound(j, bodies[1]));
                 let both = 0.5 * (impedance[0] + impedance[1]);
                 active.drag =
                     both * steepness(self.method, approach, sound, slope) * approach / distance;
@@ -638,6 +638,12 @@ impl View<'_> {
     #[inline(always)]
     fn impedance(&self, i: usize, body: usize) -> f64 {
         let area = self.mesh.areas[body][self.mesh.share[i] as usize];
-        self.mesh.bodies[body].rho_0 * self.derived.sound[i] * area
+        self.mesh.bodies[body].rho_0 * self.sound(i, body) * area
+    }
+
+    /// `c_s` of Eqs. (53), (57).
+    #[inline(always)]
+    fn sound(&self, i: usize, body: usize) -> f64 {
+        self.mesh.bodies[body].viscous_sound(self.method.viscosity, self.derived.sound[i])
     }
 }

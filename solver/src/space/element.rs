@@ -674,7 +674,11 @@ impl Group {
             let near = square.lt(reach) & self.live;
             let approach = (-dot(&r, &w)).max(F::zero()).keep(near);
             let inverse = F::splat(1.0) / square;
-            let pair = seen.sound[slot] + seen.sound[CENTRE];
+            let pair = if body.solid.bulk > 0.0 {
+                F::splat(2.0 * body.sound())
+            } else {
+                seen.sound[slot] + seen.sound[CENTRE]
+            };
             let speed = approach * inverse.sqrt();
             let nu = (pair + speed * (2.0 * method.visc_quad)) * half;
             let bond = nu * approach * inverse;

@@ -34,9 +34,9 @@ pub struct MieGruneisen {
     product: f64,
     /// Its increase per density.
     steepness: f64,
-    /// Energy on the cold curve is `cold_2 eta^2 (1 + cold_3 eta)`.
-    cold_2: f64,
-    cold_3: f64,
+    /// Coefficients of `theta_s - theta_0 - u_s / c_v` from `eta` on: `theta_s` and `u_s` on the isentrope
+    /// through the reference state.
+    isentrope: [f64; TERMS],
     c_v: f64,
     theta_0: f64,
     /// Compression beyond which the Hugoniot goes on straight.
@@ -56,6 +56,9 @@ const LAST: f64 = 0.85;
 
 /// The same of a flat Hugoniot, which has none: a tenth of the volume.
 const TENFOLD: f64 = 0.9;
+
+/// Terms of the series of the isentrope: enough for one per cent of its energy at `s eta = 0.6`.
+const TERMS: usize = 12;
 
 /// Lowest sound speed over the reference one, squared.
 const LEAST_SOUND: f64 = 0.25;
@@ -77,8 +80,7 @@ impl Eos {
                     s,
                     product: rho_0 * gamma_0,
                     steepness: b,
-                    cold_2: 0.5 * c0 * c0,
-                    cold_3: 2.0 / 3.0 * (2.0 * s - 0.5 * gamma_0) + gamma_0 / 3.0,
+                    isentrope: isentrope([c0, s], [gamma_0, b], [c_v, theta_0]),
                     c_v,
                     theta_0,
                     eta_cap: (LAST / s.max(1e-3)).min(TENFOLD),
@@ -167,10 +169,34 @@ impl MieGruneisen {
         let pressure = (cold + product * u).max(zero);
         let sound = d_cold + pressure * product * inverse * inverse;
         let least = LEAST_SOUND * self.bulk / self.rho_0;
-        let u_cold = capped * capped * self.cold_2 * (capped * self.cold_3 + 1.0);
-        let theta = (u - u_cold).max(zero) * (1.0 / self.c_v) + self.theta_0;
+        let mut isentrope = zero;
+        for term in self.isentrope.into_iter().rev() {
+            isentrope = (isentrope + term) * capped;
+        }
+        let theta = (u * (1.0 / self.c_v) + isentrope).max(zero) + self.theta_0;
         Response { pressure, sound_squared: sound.max(F::splat(least)), theta }
     }
+}
+
+/// Series of [`MieGruneisen::isentrope`].
+///
+/// With `g = Gamma rho / rho_o = gamma_0 + b (eta + eta^2 + ...)` the isentrope obeys
+/// `u' = P/rho_o = c0^2 p (1 - g eta/2) + g u` and `theta' = g theta`, where `p = eta / (1 - s eta)^2`.
+/// For a constant `c_v`, `theta - theta_s = (u - u_s) / c_v` at any density.
+fn isentrope([c0, s]: [f64; 2], [gamma_0, b]: [f64; 2], [c_v, theta_0]: [f64; 2]) -> [f64; TERMS] {
+    let g = |k: usize| if k == 0 { gamma_0 } else { b };
+    let hugoniot = |k: usize| if k == 0 { 0.0 } else { k as f64 * s.powi(k as i32 - 1) };
+    let (mut u, mut theta) = ([0.0; TERMS + 1], [0.0; TERMS + 1]);
+    theta[0] = theta_0;
+    for n in 1..=TERMS {
+        // Coefficients of the order n - 1 on the right-hand sides.
+        let sum = |f: &dyn Fn(usize) -> f64, to: usize| (0..to).map(f).sum::<f64>();
+        let release = sum(&|k| g(k) * hugoniot(n - 2 - k), n - 1);
+        let work = c0 * c0 * (hugoniot(n - 1) - 0.5 * release);
+        u[n] = (work + sum(&|k| g(k) * u[n - 1 - k], n)) / n as f64;
+        theta[n] = sum(&|k| g(k) * theta[n - 1 - k], n) / n as f64;
+    }
+    std::array::from_fn(|k| theta[k + 1] - u[k + 1] / c_v)
 }
 
 impl IdealGas {

@@ -12,6 +12,7 @@ use super::lanes::{F8, LANES, Lanes, Mask};
 use super::lattice::{CENTROID_SHARE, Lattice};
 use super::scene::{Body as BodyData, Scene};
 use super::strength::Solid;
+use crate::method::Viscosity;
 
 /// Fewest groups of a chunk.
 const CHUNK_GROUPS: usize = 40;
@@ -438,6 +439,17 @@ impl Body {
     pub fn damping(&self) -> f64 {
         let mass = 0.5 * self.rho_0 * self.cell_volume;
         2.0 / 3.0 * 8.0 / mass
+    }
+
+    /// Sound speed that a form of the viscosity sees of a particle with this one: the printed form has
+    /// that of the reference state (gap G17), which a gas has not.
+    #[inline(always)]
+    #[must_use]
+    pub fn viscous_sound(&self, form: Viscosity, current: f64) -> f64 {
+        match form {
+            Viscosity::Pairwise if self.solid.bulk > 0.0 => self.sound(),
+            Viscosity::Pairwise | Viscosity::Limited => current,
+        }
     }
 
     /// Sound speed of its particles in the reference state.

@@ -32,9 +32,9 @@ pub enum Release {
 pub struct Method {
     /// Density scheme.
     pub density: Density,
-    /// Time integration.
+    /// Time integration: compatible, or the scene is refused.
     pub integrator: Integrator,
-    /// Split of the viscous heat of free pairs.
+    /// Split of the viscous heat of (60): between the pair, or the scene is refused.
     pub heating: Heating,
     /// Reading of the yield function.
     pub yield_norm: YieldNorm,

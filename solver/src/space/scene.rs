@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::method::Method;
 use crate::error::SceneError;
+use crate::method::{Heating, Integrator};
 use crate::units::Units;
 
 /// A complete problem statement.
@@ -342,6 +343,18 @@ impl Scene {
 
 impl Method {
     fn validate(&self) -> Result<(), SceneError> {
+        if self.integrator != Integrator::Compatible {
+            let wanted = "in three dimensions there is the compatible integrator alone";
+            return Err(SceneError::new(
+                "method.integrator",
+                format!("{:?}", self.integrator),
+                wanted,
+            ));
+        }
+        if self.heating != Heating::Pair {
+            let wanted = "in three dimensions viscous heat goes half and half to the pair";
+            return Err(SceneError::new("method.heating", format!("{:?}", self.heating), wanted));
+        }
         positive("method.cfl", self.cfl)?;
         for (key, value) in [
             ("method.visc_linear", self.visc_linear),
@@ -350,6 +363,9 @@ impl Method {
             ("method.visc_expansion", self.visc_expansion),
             ("method.visc_volume", self.visc_volume),
             ("method.limiter", self.limiter),
+            ("method.balance", self.balance),
+            ("method.hourglass", self.hourglass),
+            ("method.centring", self.centring),
             ("method.contact_tolerance", self.contact_tolerance),
         ] {
             not_negative(key, value)?;

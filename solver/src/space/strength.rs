@@ -212,8 +212,9 @@ impl Solid {
             let measure = self.measure(&flow, size);
             let step = gap / (load.modulus * normal + slope * measure).max(tiny);
             let step = step.keep(yielding);
-            for (strain, flow) in plastic.iter_mut().zip(flow) {
-                *strain += step / size * flow;
+            let flowed = isochoric(&each!(k => plastic[k] + step / size * flow[k]));
+            for (strain, flowed) in plastic.iter_mut().zip(flowed) {
+                *strain = F::select(yielding, flowed, *strain);
             }
             *own.strain = (F::of(*own.strain) + step * measure).max(before).pack();
         }
@@ -296,6 +297,21 @@ fn homologous<F: Lanes>(theta: F, reference: f64, melt: f64) -> F {
 #[inline(always)]
 fn c_of<F: Lanes>(plastic: &Sym<F>) -> Sym<F> {
     each!(k => plastic[k] * 2.0 + if k < 3 { 1.0 } else { 0.0 })
+}
+
+/// The plastic strain with the determinant of `C^p` brought back to one, Eq. (17): the flow rule keeps it
+/// but for the square of a finite step.
+#[inline(always)]
+fn isochoric<F: Lanes>(plastic: &Sym<F>) -> Sym<F> {
+    let c = c_of(plastic);
+    let scale = determinant(&c).inverse_cube_root();
+    each!(k => (c[k] * scale - if k < 3 { 1.0 } else { 0.0 }) * 0.5)
+}
+
+#[inline(always)]
+fn determinant<F: Lanes>(t: &Sym<F>) -> F {
+    t[0] * (t[1] * t[2] - t[5] * t[5]) - t[3] * (t[3] * t[2] - t[5] * t[4])
+        + t[4] * (t[3] * t[5] - t[1] * t[4])
 }
 
 /// `T : T / 2`, the square of the norm (40).

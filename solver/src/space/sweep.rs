@@ -6,8 +6,12 @@ use super::lanes::{LANES, Lanes, Mask};
 use super::mesh::{Body, Mesh};
 use super::simulation::CROSSING;
 
-/// Lowest density over the reference density.
+/// Lowest density of a solid over the reference density: what is thinner is vapour, for which the
+/// equation of state holds no longer (decision 0012).
 const THINNEST: f64 = 0.3;
+
+/// The same of a gas, which has no end but must not vanish.
+const RAREST: f64 = 1e-9;
 
 /// Largest relative change of the density in a step, under pressure.
 const DENSEST_STEP: f64 = 0.08;
@@ -194,7 +198,8 @@ impl<F: Lanes> Eight<'_, F> {
         keep_rates: bool,
     ) -> (Now<F>, F, bool) {
         let at = self.at;
-        let least = F::splat(THINNEST * self.body.rho_0);
+        let thinnest = if self.body.solid.bulk > 0.0 { THINNEST } else { RAREST };
+        let least = F::splat(thinnest * self.body.rho_0);
         let volume_rate = F::load(sums.volume_rate, at);
         let mut rho_rate = F::load(sums.rho_rate, at) - F::load(derived.dilate, at) * volume_rate;
         let alone = self.ratio.lt(F::splat(1e-9)) & !self.touched;

@@ -3,9 +3,11 @@
 use proptest::prelude::*;
 use whipple_solver::Solver;
 use whipple_solver::method::{Conduction, Density, Integrator, Method, Preset};
+use whipple_solver::output::Snapshot;
 use whipple_solver::scene::{
     Body, Boundaries, Boundary, EosData, Interface, Layout, Profile, Scene,
 };
+use whipple_solver::viscosity::unexplained;
 
 use crate::common::{
     BLOCKS, FREE, GAMMA, IDEAL_GAS, Mixture, WARM, after_steps, any_chain, any_method, apart,
@@ -159,15 +161,32 @@ proptest! {
         prop_assert!(coarse < 2e-3 && fine < coarse / 3.0 + 1e-9, "{density:?}: {coarse:e} {fine:e}");
     }
 
-    /// Viscosity heats and never cools: the entropy of no particle falls.
+    /// Viscosity heats and never cools: the entropy of no particle falls, and at first it rises by half
+    /// of what the viscous forces of its pairs take from motion,
+    /// `d ln(u / rho^(gamma - 1)) = sum nu j d dt / (2 m u)`. That may be nothing: a jump `d` that its
+    /// neighbours explain leaves no `j`.
     #[test]
     fn viscosity_produces_entropy(chain in any_chain(WARM, Preset::Default.method())) {
         let mut scene = chain;
         scene.method.conduction = Conduction::None;
+        scene.method.cfl = 1e-4;
+        let mut solver = start(&scene);
+        let first = entropies(solver.as_ref(), Density::Hybrid);
+        let rates = entropy_rates(&scene, &solver.snapshot());
+        solver.step(f64::INFINITY).expect("warm gas runs");
+        let dt = solver.time();
+        let most = rates.iter().fold(0.0, |most: f64, rate| most.max(rate * dt));
+        for ((now, then), rate) in
+            entropies(solver.as_ref(), Density::Hybrid).iter().zip(&first).zip(&rates)
+        {
+            let (gain, wanted) = (now / then - 1.0, rate * dt);
+            // What the step itself changes is of second order.
+            prop_assert!((gain - wanted).abs() < 1e-3 * most + 1e-8, "{gain:e} {wanted:e} {most:e}");
+        }
+
         scene.method.cfl = 0.005;
         let mut solver = start(&scene);
-        let mut before = entropies(solver.as_ref(), Density::Hybrid);
-        let first = before.clone();
+        let mut before = first;
         for _ in 0..120 {
             solver.step(f64::INFINITY).expect("warm gas runs");
             let now = entropies(solver.as_ref(), Density::Hybrid);
@@ -176,13 +195,70 @@ proptest! {
             }
             before = now;
         }
-        prop_assert!(before.iter().zip(&first).any(|(now, then)| now / then > 1.0 + 1e-5));
     }
+}
+
+/// Closing jumps of 0.6, 0.62 and 0.16, as a random chain once had them, explain each other: all pairs
+/// close and no entropy is produced.
+#[test]
+fn jumps_that_explain_each_other_produce_nothing() {
+    let streams = [(-1.0, 0.0, 0.9954, -0.423), (0.0, 1.0, 0.0, -0.112)];
+    let bodies = streams.map(|(from, to, mean, amplitude)| Body {
+        velocity: Profile::Cosine { mean, amplitude, mode: 3.0 },
+        energy: Profile::Uniform(0.5),
+        ..body(from, to, 2)
+    });
+    let method = Method { conduction: Conduction::None, cfl: 0.005, ..Preset::Default.method() };
+    let mut solver = start(&scene(method, IDEAL_GAS, FREE, bodies.to_vec()));
+    let first = solver.snapshot();
+    assert!(first.v.windows(2).all(|v| v[0] - v[1] > 0.1), "{:?}", first.v);
+    let before = entropies(solver.as_ref(), Density::Hybrid);
+    for _ in 0..60 {
+        solver.step(f64::INFINITY).expect("warm gas runs");
+    }
+    let worst = apart(&entropies(solver.as_ref(), Density::Hybrid), &before);
+    assert!(worst < 1e-5 * before[0], "{worst:e}");
+}
+
+/// Rates of the logarithm of the entropy of every particle by the viscosity of decision 0006, for a
+/// chain of joined bodies of gas.
+fn entropy_rates(scene: &Scene, s: &Snapshot) -> Vec<f64> {
+    let of = |b: &Body| {
+        let material = scene.materials.iter().find(|m| m.name == b.material).expect("a material");
+        std::iter::repeat_n((b.compression * b.cell(), material.density), b.particles)
+    };
+    let kinds: Vec<(f64, f64)> = scene.bodies.iter().flat_map(of).collect();
+    let n = kinds.len();
+    let jump = |k: usize| s.v[k] - s.v[k + 1];
+    let sound = |k: usize| (GAMMA * (GAMMA - 1.0) * s.u[k]).sqrt();
+    let method = &scene.method;
+    let mut rates = vec![0.0; n];
+    for k in 0..n - 1 {
+        let own = jump(k);
+        // Beyond an end the velocity goes on as before it.
+        let before = if k > 0 { jump(k - 1) } else { own };
+        let after = if k + 2 < n { jump(k + 1) } else { own };
+        let seen = unexplained([before, own, after], method.limiter);
+        let zeta = (s.x[k + 1] - s.x[k]) / (0.5 * (kinds[k].0 + kinds[k + 1].0));
+        let rho = 0.5 * (kinds[k].1 + kinds[k + 1].1) / zeta;
+        let c = sound(k).min(sound(k + 1));
+        let b = method.visc_quad * 0.25 * (GAMMA + 1.0) * seen;
+        let nu = rho
+            * if seen > 0.0 {
+                b + b.hypot(method.visc_linear * c)
+            } else {
+                method.visc_expansion * c
+            };
+        for i in [k, k + 1] {
+            rates[i] += 0.5 * nu * seen * own / (s.m[i] * s.u[i]);
+        }
+    }
+    rates
 }
 
 /// States of scenes after steps of one and the same size, half of what the first may take: which
 /// step a scene would take by itself is decided by the last digit.
-fn in_step(scenes: &[Scene; 2], steps: u32) -> [whipple_solver::output::Snapshot; 2] {
+fn in_step(scenes: &[Scene; 2], steps: u32) -> [Snapshot; 2] {
     let dt = 0.5 * after_steps(&scenes[0], 1).time();
     scenes.each_ref().map(|scene| {
         let mut solver = start(scene);

@@ -1,9 +1,11 @@
 //! What no run may lose: mass, momentum, angular momentum and energy.
 
 use whipple_solver::space::Simulation;
-use whipple_solver::space::scene::{Body, Hold, Side, Wall};
+use whipple_solver::space::method::Method;
+use whipple_solver::space::output::Particle;
+use whipple_solver::space::scene::{Body, EosData, Failure, Hold, Material, Side, Wall};
 
-use super::scenes::{after, block, copper, rod, scene, steel, tungsten};
+use super::scenes::{after, block, copper, rod, scene, start, steel, tungsten};
 
 /// Prints and bounds what a run has lost: momentum, angular momentum, energy, and the residual of the
 /// elements.
@@ -64,4 +66,35 @@ fn unequal_blocks() {
     let simulation = after(&scene(vec![tungsten(), steel()], vec![fast, slow]), 120);
     assert!(simulation.holdings()[1].momentum[0] > 0.0, "they meet");
     lost(&simulation, [1e-13, 1e-12, 1e-12, 1e-2]);
+}
+
+/// A block of gas that expands into nothing keeps the entropy of every particle inside, far below the
+/// density that it began with.
+#[test]
+fn gas_expands_along_its_isentrope() {
+    let index = 1.4;
+    let gas = Material {
+        name: "gas".into(),
+        density: 1.0,
+        eos: EosData::IdealGas { adiabatic_index: index, c_v: 1.0 },
+        strength: None,
+        failure: Failure::default(),
+    };
+    let mut scene = scene(vec![gas], vec![Body { energy: 1.0, ..block("gas", [6, 6, 6], 0.1) }]);
+    scene.method = Method {
+        visc_linear: 0.0,
+        visc_quad: 0.0,
+        visc_expansion: 0.0,
+        heat_coeff: 0.0,
+        cfl: 0.02,
+        ..scene.method
+    };
+    let mut simulation = start(&scene);
+    simulation.advance_to(0.2).expect("gas expands");
+    let inside: Vec<_> = simulation.all_particles().filter(|p| p.held == 1.0).collect();
+    let thinnest = inside.iter().map(|p| p.rho).fold(f64::INFINITY, f64::min);
+    let change = |p: &Particle| (p.u / p.rho.powf(index - 1.0) - 1.0).abs();
+    let worst = inside.iter().map(change).fold(0.0, f64::max);
+    println!("{} particles, down to {thinnest:.3}: entropy within {worst:.1e}", inside.len());
+    assert!(inside.len() > 100 && thinnest < 0.1 && worst < 0.01);
 }

@@ -13,3 +13,4 @@ mod plasticity;
 mod reference;
 mod refusals;
 mod scenes;
+mod viscosity;

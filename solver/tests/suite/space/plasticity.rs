@@ -1,7 +1,7 @@
 //! The return map lands on the yield surface, in all three readings of the printed norm.
 
 use whipple_solver::space::lanes::F8;
-use whipple_solver::space::lattice::Lattice;
+use whipple_solver::space::lattice::{Lattice, rotation};
 use whipple_solver::space::method::{Method, YieldNorm};
 use whipple_solver::space::scene::Flow;
 use whipple_solver::space::strength::{Flowing, Load, Solid};
@@ -18,6 +18,10 @@ fn solid(flow: Flow, yield_norm: YieldNorm) -> Solid {
     let method = Method { yield_norm, ..default() };
     let lattice = Lattice::new(&block("copper", [3, 3, 3], 0.1));
     Solid::new(&strong(copper(), MU, Some(flow)), &method, &lattice)
+}
+
+fn matrix(f: impl Fn(usize, usize) -> f64) -> M {
+    std::array::from_fn(|i| std::array::from_fn(|j| f(i, j)))
 }
 
 fn full(t: &[F8; 6], lane: usize) -> M {
@@ -186,5 +190,65 @@ fn uniaxial_yield() {
         assert_eq!(at(0.999 * factor * y).0, 0.0, "{reading:?}");
         let (strain, stress) = at(1.5 * factor * y);
         assert!(strain > 0.0 && (stress / (factor * y) - 1.0).abs() < 1e-3, "{reading:?} {stress}");
+    }
+}
+
+/// The symmetric tensor with these principal values, turned about a skew axis by an angle in degrees.
+fn turned(principal: [f64; 3], degrees: f64) -> [f64; 6] {
+    let axes = rotation([1.0, 2.0, 3.0], degrees.to_radians());
+    SIX.map(|(i, j)| (0..3).map(|k| principal[k] * axes[k][i] * axes[k][j]).sum())
+}
+
+fn determinant(t: &M) -> f64 {
+    let minor = |j: usize, k: usize| t[1][j] * t[2][k] - t[1][k] * t[2][j];
+    t[0][0] * minor(1, 2) - t[0][1] * minor(0, 2) + t[0][2] * minor(0, 1)
+}
+
+/// A cell that is pressed to 0.3, drawn out to 3.3, pressed again and let back lands at every step, its
+/// plastic deformation keeps its volume, Eq. (17), and the plastic strain is the way of the
+/// logarithmic strain but for the elastic part, in steps small and large, straight and turned.
+#[test]
+fn large_reversed_strain() {
+    let flow = Flow::Hardening {
+        y_0: 0.0075,
+        kappa: 5.67,
+        alpha: 0.49,
+        eta: 0.0,
+        reference: 300.0,
+        melt: 1700.0,
+    };
+    for reading in [YieldNorm::Mises, YieldNorm::J2, YieldNorm::AsPrinted] {
+        let solid = solid(flow, reading);
+        for step in [0.02, 0.1, 0.3] {
+            let mut eight = Eight::new(&solid);
+            let (mut log, mut off, mut swollen) = (0.0_f64, 0.0_f64, 0.0_f64);
+            for (way, until) in [(-1.0, -1.2), (1.0, 1.2), (-1.0, -1.2), (1.0, 0.0)] {
+                while way * (until - log) > 1e-9 {
+                    log += way * step;
+                    let square = log.exp().powi(2);
+                    let across = 0.5 / square.sqrt() - 0.5;
+                    let principal = [0.5 * square - 0.5, across, across];
+                    let lanes: [[f64; 6]; 8] =
+                        std::array::from_fn(|lane| turned(principal, 10.0 * lane as f64));
+                    let total = std::array::from_fn(|k| F8(lanes.map(|t| t[k])));
+                    let stress = eight.flow(&solid, &total, 1.0, u8::MAX);
+                    for lane in 0..8 {
+                        let plastic = full(&eight.plastic, lane);
+                        let size = effective(&plastic, &full(&stress, lane), reading);
+                        off = off.max(size / eight.flow.0[lane] - 1.0);
+                        let c = matrix(|i, j| 2.0 * plastic[i][j] + f64::from(u8::from(i == j)));
+                        swollen = swollen.max((determinant(&c) - 1.0).abs());
+                    }
+                }
+            }
+            let strain = eight.strain.0;
+            println!("{reading:?} {step}: {off:.1e} of Y, det C^p {swollen:.1e}, {:.3}", strain[0]);
+            assert!(off < 1e-8 && swollen < 1e-12, "{reading:?} {step}: {off:e} {swollen:e}");
+            assert!(strain.iter().all(|s| (s / strain[0] - 1.0).abs() < 1e-9), "{strain:?}");
+            // 7.2 less the elastic strains of four ways; the largest steps are longer than these.
+            if reading == YieldNorm::Mises && step < 0.2 {
+                assert!((7.05..7.2).contains(&strain[0]), "{step}: {}", strain[0]);
+            }
+        }
     }
 }

@@ -1073,9 +1073,24 @@ fn eos(solid: &Solid, rho: f64, u: f64) -> (f64, f64, f64) {
     let pressure = (p_cold + product * u).max(0.0);
     let squared = (slope + pressure * product / (rho * rho)).max(0.25 * solid.c0 * solid.c0);
     let eta = eta.min(cap);
-    let cubic = 2.0 / 3.0 * (2.0 * solid.s - 0.5 * solid.gamma) + solid.gamma / 3.0;
-    let u_cold = 0.5 * (solid.c0 * eta).powi(2) * (1.0 + cubic * eta);
-    (pressure, squared.sqrt(), solid.theta_0 + (u - u_cold).max(0.0) / solid.c_v)
+    (pressure, squared.sqrt(), solid.theta_0 + (u / solid.c_v + isentrope(solid, eta)).max(0.0))
+}
+
+/// `theta_s - theta_0 - u_s / c_v` on the isentrope through the reference state: twelve terms of
+/// `theta_s = theta_0 exp(Gamma_o eta)` and of the solution of
+/// `u' = c0^2 eta (1 - Gamma_o eta / 2) / (1 - s eta)^2 + Gamma_o u`.
+fn isentrope(solid: &Solid, eta: f64) -> f64 {
+    let (mut heating, mut energy, mut sum) = (solid.theta_0, 0.0, 0.0);
+    for n in 1..=12 {
+        let k = f64::from(n) - 1.0;
+        heating *= solid.gamma / f64::from(n);
+        let shock =
+            k * solid.s.powf(k - 1.0) - 0.5 * solid.gamma * (k - 1.0) * solid.s.powf(k - 2.0);
+        let pushed = if n > 1 { solid.c0 * solid.c0 * shock } else { 0.0 };
+        energy = (pushed + solid.gamma * energy) / f64::from(n);
+        sum += (heating - energy / solid.c_v) * eta.powi(n);
+    }
+    sum
 }
 
 /// Plastic flow of the von Mises reading until the effective stress lies on the yield surface.
@@ -1112,7 +1127,9 @@ fn flow(
             alpha * kappa * yield_stress(element.strain) / (1.0 + kappa * element.strain);
         let measure = 2.0 / 3f64.sqrt();
         let step = gap / (modulus * normal + hardening * measure);
-        element.plastic = plus(&element.plastic, step / size(&driver), &direction);
+        let flowed = plus(&c, 2.0 * step / size(&driver), &direction);
+        let isochoric = scaled(&flowed, determinant(&flowed).powf(-1.0 / 3.0));
+        element.plastic = scaled(&plus(&isochoric, -1.0, &ONE), 0.5);
         element.strain = (element.strain + step * measure).max(before);
     }
 }

@@ -1,5 +1,6 @@
 //! Scenes that cannot be simulated, and what is said of them.
 
+use whipple_solver::method::{Heating, Integrator};
 use whipple_solver::space::Simulation;
 use whipple_solver::space::method::Release;
 use whipple_solver::space::scene::{Scene, Shape};
@@ -20,6 +21,8 @@ fn refused(change: impl FnOnce(&mut Scene)) -> String {
 fn bad_scenes_are_named() {
     let messages = [
         refused(|s| s.stop_time = f64::NAN),
+        refused(|s| s.method.integrator = Integrator::SinglePass),
+        refused(|s| s.method.heating = Heating::Printed),
         refused(|s| s.method.cfl = 0.0),
         refused(|s| s.method.visc_quad = -1.0),
         refused(|s| s.method.contact_reach = 1.4),
