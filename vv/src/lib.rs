@@ -24,4 +24,5 @@ pub mod space;
 pub mod suggest;
 pub mod suite;
 pub mod vtk;
+pub mod validation;
 mod xml;
