@@ -116,6 +116,16 @@ struct RunArgs {
         value_parser = wall_time
     )]
     max_wall: Option<Duration>,
+    /// In three dimensions: write a checkpoint this often on the clock, such as 10min; the last two
+    /// are kept
+    #[arg(
+        long,
+        value_name = "EVERY",
+        requires = "out",
+        conflicts_with = "godunov",
+        value_parser = wall_time
+    )]
+    checkpoint: Option<Duration>,
     /// Print one JSON object on standard output
     #[arg(long)]
     json: bool,
