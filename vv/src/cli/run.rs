@@ -25,7 +25,7 @@ use crate::suggest::did_you_mean;
 use crate::suite::{command_of, scene_of, write_record};
 
 /// Most threads that a run may ask for.
-const MAX_THREADS: usize = 1024;
+pub(super) const MAX_THREADS: usize = 1024;
 
 /// What `--json` prints.
 #[derive(Serialize)]
@@ -233,7 +233,7 @@ fn how_to_go_on(args: &RunArgs, command: &str, checkpoint: Option<&Path>) -> Str
     format!("; continue with\n  {again} --out {out} --resume {checkpoint}")
 }
 
-fn find(name: &str) -> Result<&'static dyn Case, Failure> {
+pub(super) fn find(name: &str) -> Result<&'static dyn Case, Failure> {
     cases::find(name).ok_or_else(|| {
         let known: Vec<&str> = cases::ALL.iter().map(|c| c.id()).collect();
         let hint = did_you_mean(name, known);
