@@ -147,6 +147,11 @@ fn against([low, high]: [f64; 2], value: f64) -> &'static str {
     }
 }
 
+/// The band to quote; equal numbers show none, least of all numbers that were rounded.
+fn band(study: &GridStudy) -> Option<f64> {
+    (study.behaviour != Behaviour::Flat).then(|| study.band())
+}
+
 /// What can be said of the order, in words.
 fn judged(study: &GridStudy) -> &'static str {
     match (study.behaviour, study.order_check) {
@@ -180,7 +185,7 @@ fn convergence(records: &Records) -> Option<Table> {
                 number(study.observed.and_then(|o| o.gci12).map(|g| 100.0 * g), 2),
                 with.unwrap_or_else(|| "–".into()).into(),
                 number(quoted.and_then(|q| q.gci12).map(|g| 100.0 * g), 3),
-                Cell::number(study.band(), 2),
+                number(band(&study), 2),
                 judged(&study).into(),
             ]);
         }
@@ -229,7 +234,7 @@ fn validation(records: &Records) -> Table {
         for who in Who::ALL {
             let study = who.study(known, records);
             let finest = who.levels(known, records).last().map(|level| level.value);
-            let numerical = study.as_ref().map(|study| of_band(study.band()));
+            let numerical = study.as_ref().and_then(band).map(of_band);
             let input = match who {
                 Who::Table5 => None,
                 Who::Ours(preset) => of_inputs(preset, known, records),

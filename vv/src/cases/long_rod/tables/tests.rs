@@ -87,6 +87,18 @@ fn table_5_is_not_asymptotic() {
     assert_eq!(row[9].text, "monotone, faster than the method can: not asymptotic");
 }
 
+/// The velocities of Table 5 are equal as they are printed: that is no uncertainty of zero.
+#[test]
+fn equal_numbers_have_no_band() {
+    let tables =
+        [convergence(&Records::default()).expect("a table"), validation(&Records::default())];
+    for (table, cell) in tables.iter().zip([8, 5]) {
+        let mut rows = table.rows.iter().filter(|row| row[1].text == "paper, Table 5");
+        let velocity = rows.rfind(|row| row[0].text.starts_with("velocity")).expect("a row");
+        assert_eq!((velocity[cell].text.as_str(), velocity[cell].value), ("–", None));
+    }
+}
+
 /// E, its parts and their sum by hand; a part that is not known leaves no sum and no judgement.
 #[test]
 fn validation_by_hand() {
