@@ -2,9 +2,13 @@
 
 use whipple_solver::Solver;
 use whipple_solver::method::{Density, Integrator, Preset};
+use whipple_solver::space::Simulation;
+use whipple_vv::cases::find;
 use whipple_vv::cost::{Contender, EQUAL_LIST, scene};
+use whipple_vv::record::{RunKey, Scheme};
+use whipple_vv::suite::scene_of;
 
-/// Particles of every benchmark.
+/// Particles of every benchmark along a line.
 pub const PARTICLES: usize = 10_000;
 
 /// The schemes that are compared, with their names.
@@ -30,4 +34,43 @@ pub fn solver(contender: Contender, integrator: Integrator) -> Box<dyn Solver> {
         Ok(solver) => solver,
         Err(error) => panic!("the standing wave is a valid scene: {error}"),
     }
+}
+
+/// Cells across the rod, and steps that it has taken when it is measured.
+const CELLS: usize = 5;
+const STEPS: u64 = 300;
+
+/// The schemes of the long rod, with their names: with elements that carry the pressure, the paper's,
+/// and the kernel that it removes.
+#[must_use]
+pub fn rods() -> [(&'static str, Scheme); 3] {
+    let kernel = Scheme::Particles { preset: Preset::Paper, density: Density::Kernel };
+    [
+        ("default", Scheme::preset(Preset::Default)),
+        ("paper", Scheme::preset(Preset::Paper)),
+        ("paper, kernel", kernel),
+    ]
+}
+
+/// The long rod in the middle of its impact.
+///
+/// # Panics
+/// If the scene were invalid or failed so early, which tests of the harness exclude.
+#[must_use]
+pub fn rod(scheme: Scheme) -> Simulation {
+    let scene = find("long-rod").and_then(|rod| {
+        let key = RunKey::new(rod.id(), scheme, CELLS);
+        scene_of(rod, &key)?.space().cloned()
+    });
+    let Some(scene) = scene else { panic!("the long rod is in space") };
+    let mut simulation = match Simulation::new(&scene) {
+        Ok(simulation) => simulation,
+        Err(error) => panic!("the rod is a valid scene: {error}"),
+    };
+    for _ in 0..STEPS {
+        if let Err(error) = simulation.step(scene.stop_time) {
+            panic!("the rod gets so far: {error}");
+        }
+    }
+    simulation
 }

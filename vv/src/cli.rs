@@ -54,7 +54,7 @@ enum Command {
     Vv(VvArgs),
     /// Redraw the report from its records, without running anything
     Report(ReportArgs),
-    /// Measure speed and the cost of the density schemes
+    /// Measure speed: cost of the density schemes, and the long rod in three dimensions
     Bench(BenchArgs),
     /// Make the reference of a case that has no exact solution
     Reference(ReferenceArgs),
@@ -116,6 +116,16 @@ struct RunArgs {
         value_parser = wall_time
     )]
     max_wall: Option<Duration>,
+    /// In three dimensions: write a checkpoint this often on the clock, such as 10min; the last two
+    /// are kept
+    #[arg(
+        long,
+        value_name = "EVERY",
+        requires = "out",
+        conflicts_with = "godunov",
+        value_parser = wall_time
+    )]
+    checkpoint: Option<Duration>,
     /// Print one JSON object on standard output
     #[arg(long)]
     json: bool,
@@ -151,12 +161,38 @@ struct ReportArgs {
 
 #[derive(Debug, clap::Args)]
 struct BenchArgs {
-    /// Particles
+    /// What to measure; all of it when nothing is named
+    what: Vec<Bench>,
+    /// Density: particles along the line
     #[arg(long, default_value_t = 10_000)]
     n: usize,
-    /// A/B/B/A rounds
+    /// Density: A/B/B/A rounds
     #[arg(long, default_value_t = 10)]
     rounds: usize,
+    /// Rod: cells across
+    #[arg(long, default_value_t = 5)]
+    cells: usize,
+    /// Rod: steps of each run, from its start
+    #[arg(long, default_value_t = 400)]
+    steps: u64,
+    /// Rod: runs to their end instead
+    #[arg(long, conflicts_with = "steps")]
+    whole: bool,
+    /// Rod: threads that are compared with one
+    #[arg(long, default_value_t = 2)]
+    threads: usize,
+    /// Rod: folder for the tables as CSV and the figure as SVG
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+}
+
+/// What `bench` measures.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Bench {
+    /// Cost of the density schemes along a line
+    Density,
+    /// Speed, phases and memory of the long rod in three dimensions
+    Rod,
 }
 
 #[derive(Debug, clap::Args)]

@@ -265,7 +265,7 @@ pub fn run_with(
 }
 
 /// The record of a run that has not begun.
-fn blank(key: RunKey, threads: usize, command: String) -> RunRecord {
+pub(crate) fn blank(key: RunKey, threads: usize, command: String) -> RunRecord {
     RunRecord {
         schema: SCHEMA,
         key,

@@ -83,6 +83,45 @@ pub fn command_of(key: &RunKey) -> String {
     command + &format!(" --n {}", key.n)
 }
 
+/// What the runs of a level will take, by the records of earlier ones.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Forecast {
+    /// Runs of the level.
+    pub runs: usize,
+    /// CPU seconds that their records took.
+    pub measured: f64,
+    /// CPU seconds of runs without a record, by that of another size or scheme of the case.
+    pub scaled: f64,
+    /// Runs of which nothing is known.
+    pub unknown: usize,
+}
+
+/// Forecasts the runs of a level. Without a record of its own a run is taken to cost as much as the
+/// nearest in size of the case, times the ratio of the sizes to the power of its dimensions and one
+/// more, for the steps.
+#[must_use]
+pub fn forecast(cases: &[&'static dyn Case], level: Level, records: &Records) -> Forecast {
+    let mut out = Forecast::default();
+    for case in cases {
+        for key in case.runs(level) {
+            out.runs += 1;
+            let own = records.get(&key).map(|record| record.cpu_seconds);
+            let known = records.of_case(case.id()).filter(|record| record.cpu_seconds > 0.0);
+            let ratio = |record: &&RunRecord| key.n as f64 / record.key.n as f64;
+            let nearest = known.min_by(|a, b| ratio(a).ln().abs().total_cmp(&ratio(b).ln().abs()));
+            match (own, nearest) {
+                (Some(seconds), _) => out.measured += seconds,
+                (None, Some(record)) => {
+                    let power = if record.space.is_some() { 4 } else { 2 };
+                    out.scaled += record.cpu_seconds * ratio(&record).powi(power);
+                }
+                (None, None) => out.unknown += 1,
+            }
+        }
+    }
+    out
+}
+
 /// Runs everything that a level asks of some cases, one after the other on this thread, and writes
 /// the records. `said` is told of every run before it starts and after.
 ///
@@ -153,4 +192,27 @@ fn compact(record: &RunRecord) -> RunRecord {
 pub fn verdicts(records: &Records) -> Vec<Verdict> {
     let claims = crate::cases::ALL.iter().flat_map(|c| c.claims()).collect();
     judge(claims, records)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::run::blank;
+
+    /// Known runs count with their time, others by the nearest size; the rest is owned to be unknown.
+    #[test]
+    fn forecasts_say_what_is_known() {
+        let rod = crate::cases::find("long-rod").expect("the case");
+        let runs = rod.runs(Level::Standard);
+        let nothing = forecast(&[rod], Level::Standard, &Records::default());
+        assert_eq!((nothing.runs, nothing.unknown), (runs.len(), runs.len()));
+        let mut records = Records::default();
+        let mut record = blank(runs[0].clone(), 1, String::new());
+        record.cpu_seconds = 10.0;
+        records.insert(record);
+        let some = forecast(&[rod], Level::Standard, &records);
+        let others = runs[1..].iter().map(|key| (key.n as f64 / runs[0].n as f64).powi(2));
+        assert_eq!((some.runs, some.measured, some.unknown), (runs.len(), 10.0, 0));
+        assert!((some.scaled - 10.0 * others.sum::<f64>()).abs() < 1e-9, "{some:?}");
+    }
 }

@@ -301,6 +301,18 @@ impl Contacts {
         self.list.pairs().len()
     }
 
+    /// Pairs of the list that act on each other in this step.
+    #[must_use]
+    pub fn acting(&self) -> usize {
+        self.blocks.iter().map(Vec::len).sum()
+    }
+
+    /// What the search for pairs has done so far.
+    #[must_use]
+    pub fn searches(&self) -> super::near::Counters {
+        self.list.counters()
+    }
+
     /// Moves the members to their present positions and renews the list if it is stale.
     pub fn refresh(&mut self, mesh: &Mesh, state: &State, method: &Method) {
         self.follow(mesh, state);

@@ -210,6 +210,12 @@ impl Simulation {
         }
     }
 
+    /// Takes what is held now for what was held at the start: after a change of a new simulation to a
+    /// state that no scene states.
+    pub fn start_books(&mut self) {
+        self.initial = self.balance().now;
+    }
+
     /// Position of a particle.
     #[must_use]
     pub fn position(&self, i: usize) -> [f64; 3] {

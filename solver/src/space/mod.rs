@@ -15,6 +15,7 @@ pub mod method;
 pub mod near;
 pub mod output;
 pub mod pass;
+pub mod phase;
 pub mod restart;
 pub mod scene;
 pub mod simulation;

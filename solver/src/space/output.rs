@@ -111,6 +111,25 @@ impl Simulation {
         self.contacts.pairs()
     }
 
+    /// Pairs of them that acted on each other in the last step.
+    #[must_use]
+    pub fn acting(&self) -> usize {
+        self.contacts.acting()
+    }
+
+    /// What the search for pairs has done since the scene was made, or restored.
+    #[must_use]
+    pub fn searches(&self) -> super::near::Counters {
+        self.contacts.searches()
+    }
+
+    /// Elements that the present step evaluates: live, and reached by a wave.
+    #[must_use]
+    pub fn working(&self) -> usize {
+        let awake = self.groups.iter().filter(|group| group.awake);
+        awake.map(|group| group.live.count_ones() as usize).sum()
+    }
+
     /// Particles that the present step moves: those that no wave has reached are left out.
     #[must_use]
     pub fn moving(&self) -> usize {

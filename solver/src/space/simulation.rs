@@ -10,6 +10,7 @@ use super::ledger::Holdings;
 use super::mesh::{Group, Mesh};
 use super::method::Method;
 use super::pass::{COLOURS, Load, Motion, Pass, over_elements};
+use super::phase::Phase;
 use super::scene::Scene;
 use super::surfaces::Surfaces;
 use super::sweep::{Allowed, Particles, Respond, Stage};
@@ -133,7 +134,7 @@ impl Simulation {
             state,
         };
         simulation.respond(simulation.end());
-        simulation.touch();
+        simulation.touch(&mut |_| {});
         if let Some((body, [distance, least])) =
             simulation.surfaces.too_close(&simulation.mesh, &simulation.contacts)
         {
@@ -144,7 +145,7 @@ impl Simulation {
         simulation.active =
             (0..simulation.mesh.pieces.len()).map(|p| simulation.stirs(p)).collect();
         simulation.wake();
-        simulation.initial = simulation.balance().now;
+        simulation.start_books();
         Ok(simulation)
     }
 
@@ -199,13 +200,27 @@ impl Simulation {
     /// # Errors
     /// A numerical failure.
     pub fn step(&mut self, until: f64) -> Result<(), StepError> {
-        self.load();
+        self.step_by_phases(until, &mut |_| {})
+    }
+
+    /// [`Simulation::step`], and `enter` is told whenever a phase begins.
+    ///
+    /// # Errors
+    /// A numerical failure.
+    pub fn step_by_phases(
+        &mut self,
+        until: f64,
+        enter: &mut impl FnMut(Phase),
+    ) -> Result<(), StepError> {
+        self.load(enter);
+        enter(Phase::Control);
         let dt = self.elect(until)?;
         self.keep_in(dt);
         // What a contact or a wall pushes strains elements in this step already.
         self.wake();
-        self.advance();
-        self.touch();
+        self.advance(enter);
+        self.touch(enter);
+        enter(Phase::Control);
         self.time = if dt >= until - self.time { until } else { self.time + dt };
         self.bury();
         self.wake();
@@ -229,7 +244,8 @@ impl Simulation {
     }
 
     /// Forces on all particles: elements, then contacts.
-    fn load(&mut self) {
+    fn load(&mut self, enter: &mut impl FnMut(Phase)) {
+        enter(Phase::Elements);
         let pass = Load {
             laws: self.laws(self.dt),
             read: Read {
@@ -249,12 +265,14 @@ impl Simulation {
         self.demand = even.and(odd);
         self.element_heat += self.demand.heat;
         let columns = (&self.state, &self.derived);
+        enter(Phase::Contacts);
         self.contacts.push(
             &self.mesh,
             columns,
             (&self.method, self.dt),
             (&mut self.sums, &mut self.touched, &mut self.active),
         );
+        enter(Phase::Springs);
         let [rate, heat] = self.surfaces.push(
             (&self.mesh, &self.contacts),
             columns,
@@ -318,7 +336,7 @@ impl Simulation {
     /// The rest of the step in one pass through memory: velocities at the middle of the next drift,
     /// Eq. (74); rates over the mean velocity, by which what forces take from motion becomes heat,
     /// pressure work and strain; Eqs. (36), (58), (76), and the equation of state (22).
-    fn advance(&mut self) {
+    fn advance(&mut self, enter: &mut impl FnMut(Phase)) {
         let (mesh, state, sums) = (&self.mesh, &self.state, &mut self.sums);
         let half = 0.5 * self.kick;
         let force = [&sums.fx, &sums.fy, &sums.fz];
@@ -326,8 +344,11 @@ impl Simulation {
             let v = [state.vx[i], state.vy[i], state.vz[i]];
             std::array::from_fn(|d| v[d] + half / mesh.mass[i] * force[d][i])
         };
+        enter(Phase::Contacts);
         self.contacts.work(mesh, mean, self.kick, (&mut sums.rho_rate, &mut sums.heat));
+        enter(Phase::Springs);
         self.spring_work += self.surfaces.work(mesh, mean, self.kick, &mut sums.heat);
+        enter(Phase::Motion);
         let pass = Motion {
             laws: self.laws(self.kick),
             particles: Particles {
@@ -357,7 +378,8 @@ impl Simulation {
     }
 
     /// The particles that may touch at the new positions, and the density, if they give it.
-    fn touch(&mut self) {
+    fn touch(&mut self, enter: &mut impl FnMut(Phase)) {
+        enter(Phase::List);
         for body in &mut self.mesh.bodies {
             for (way, velocity) in body.way.iter_mut().zip(body.velocity) {
                 *way += self.dt * velocity;
@@ -365,6 +387,7 @@ impl Simulation {
         }
         self.contacts.refresh(&self.mesh, &self.state, &self.method);
         if self.method.density == Density::Kernel {
+            enter(Phase::Kernel);
             let rho = &mut self.derived.rho;
             self.counters.kernel_evaluations += self.contacts.sum_density(&self.mesh, rho);
             let sane = self.allowed.sane;

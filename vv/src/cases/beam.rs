@@ -130,18 +130,18 @@ impl Case for Beam {
         let mut history = Columns::default();
         for k in 0..=entries {
             driver.advance_to(scene.stop_time * k as f64 / entries as f64)?;
-            let balance = driver.balance();
-            let solver = driver.solver();
-            let deflection: f64 =
-                weights.iter().map(|(i, w, y)| w * (solver.particle(*i).position[1] - y)).sum();
-            let modes = modes::energies(solver);
-            history.row([
-                ("time", solver.time()),
-                ("deflection", deflection / mass),
-                ("hourglass", modes.hourglass / balance.initial.kinetic),
-                ("held", balance.now.energy() / balance.initial.energy()),
-                ("heat", balance.now.internal / balance.initial.kinetic),
-            ]);
+            let now = driver.look(|solver, balance| {
+                let deflection: f64 =
+                    weights.iter().map(|(i, w, y)| w * (solver.particle(*i).position[1] - y)).sum();
+                vec![
+                    solver.time(),
+                    deflection / mass,
+                    modes::energies(solver).hourglass / balance.initial.kinetic,
+                    balance.now.energy() / balance.initial.energy(),
+                    balance.now.internal / balance.initial.kinetic,
+                ]
+            })?;
+            history.read(&["time", "deflection", "hourglass", "held", "heat"], &now);
         }
         let step = FITTED as f64 * scene.stop_time / entries as f64;
         let fitted: Vec<f64> =

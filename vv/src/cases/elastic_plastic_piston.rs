@@ -187,13 +187,16 @@ impl Case for ElasticPlasticPiston {
         let mut pushed = Vec::new();
         for k in 0..=LOOKS {
             driver.advance_to(scene.stop_time * (0.5 + 0.5 * k as f64 / LOOKS as f64))?;
-            let balance = driver.balance();
-            let time = driver.solver().time();
-            pushed.push((time, balance.wall_impulse[0]));
-            let layers = planes.look(driver.solver());
-            for (seen, level) in seen.iter_mut().zip(levels) {
-                if let Some(place) = front(&layers, lost, level) {
-                    seen.push((time, place));
+            let now = driver.look(|solver, balance| {
+                let layers = planes.look(solver);
+                let places = levels.map(|level| front(&layers, lost, level).unwrap_or(f64::NAN));
+                vec![solver.time(), balance.wall_impulse[0], places[0], places[1]]
+            })?;
+            pushed.push((now[0], now[1]));
+            for (seen, &place) in seen.iter_mut().zip(&now[2..]) {
+                // Not a number before the front is there.
+                if place.is_finite() {
+                    seen.push((now[0], place));
                 }
             }
         }

@@ -132,16 +132,13 @@ impl Case for FreeSurface {
         let mut history = Columns::default();
         for k in 0..=ENTRIES {
             driver.advance_to(scene.stop_time * k as f64 / ENTRIES as f64)?;
-            driver.balance();
-            let solver = driver.solver();
-            let velocities: Vec<f64> =
-                end.iter().map(|&i| solver.particle(i).velocity[0] + speed).collect();
-            let (velocity, _) = moments(&velocities);
-            history.row([
-                ("time", solver.time() / breakout),
-                ("velocity", velocity / released.velocity),
-                ("exact", if solver.time() < breakout { 0.0 } else { 1.0 }),
-            ]);
+            let now = driver.look(|solver, _| {
+                let velocities: Vec<f64> =
+                    end.iter().map(|&i| solver.particle(i).velocity[0] + speed).collect();
+                let exact = if solver.time() < breakout { 0.0 } else { 1.0 };
+                vec![solver.time() / breakout, moments(&velocities).0 / released.velocity, exact]
+            })?;
+            history.read(&["time", "velocity", "exact"], &now);
         }
         let (times, velocities) = (history.column("time"), history.column("velocity"));
         let all = || times.iter().zip(velocities);

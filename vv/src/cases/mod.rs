@@ -143,6 +143,11 @@ pub trait Case: Sync {
     /// The norms that the report tabulates, with their titles.
     fn tabulated(&self) -> &'static [(&'static str, &'static str)];
 
+    /// Whether what is tabulated are errors, whose orders the report fits.
+    fn tabulates_errors(&self) -> bool {
+        true
+    }
+
     /// Quantities whose own convergence is studied, with their titles: what an exact solution is not
     /// needed for.
     fn quantities(&self) -> &'static [(&'static str, &'static str)] {

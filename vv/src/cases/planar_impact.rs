@@ -177,10 +177,12 @@ impl Case for PlanarImpact {
         let mut seen = Vec::new();
         for k in 0..=LOOKS {
             driver.advance_to(scene.stop_time * (0.5 + 0.5 * k as f64 / LOOKS as f64))?;
-            driver.balance();
-            let layers = target.look(driver.solver());
-            if let Some(place) = front(&layers, |l| l.pressure, 0.5 * state.pressure) {
-                seen.push((driver.solver().time(), place));
+            let now = driver.look(|solver, _| {
+                let place = front(&target.look(solver), |l| l.pressure, 0.5 * state.pressure);
+                place.map_or_else(Vec::new, |place| vec![solver.time(), place])
+            })?;
+            if let [time, place] = now[..] {
+                seen.push((time, place));
             }
         }
         let layers = target.look(driver.solver());

@@ -136,18 +136,23 @@ impl Case for Spall {
         let mut first = None;
         for k in 0..=ENTRIES {
             driver.advance_to(scene.stop_time * k as f64 / ENTRIES as f64)?;
-            driver.balance();
-            let solver = driver.solver();
-            let velocities: Vec<f64> =
-                face.iter().map(|&i| solver.particle(i).velocity[0]).collect();
+            let now = driver.look(|solver, _| {
+                let velocities: Vec<f64> =
+                    face.iter().map(|&i| solver.particle(i).velocity[0]).collect();
+                let [least, most] = opened(solver, &depths).unwrap_or([f64::NAN; 2]);
+                let failed = solver.failed().0 as f64;
+                vec![solver.time(), moments(&velocities).0, failed, least, most]
+            })?;
+            let (time, open) = (now[0], [now[3], now[4]]);
             history.row([
-                ("time", solver.time()),
-                ("velocity", moments(&velocities).0 / SPEED),
-                ("holds", exact.sample(TARGET, solver.time())?.velocity / SPEED),
-                ("failed", solver.failed().0 as f64),
+                ("time", time),
+                ("velocity", now[1] / SPEED),
+                ("holds", exact.sample(TARGET, time)?.velocity / SPEED),
+                ("failed", now[2]),
             ]);
-            if first.is_none() {
-                first = opened(solver, &depths).map(|range| (solver.time(), range));
+            // Not a number while nothing has opened.
+            if first.is_none() && open[0].is_finite() {
+                first = Some((time, open));
             }
         }
         let (times, velocities) = (history.column("time"), history.column("velocity"));

@@ -109,16 +109,18 @@ impl Case for SpinningBlock {
         let mut history = Columns::default();
         for k in 1..=ENTRIES {
             driver.advance_to(scene.stop_time * k as f64 / ENTRIES as f64)?;
-            let balance = driver.balance();
-            let modes = modes::energies(driver.solver());
-            let initial = balance.initial.kinetic;
-            history.row([
-                ("turn", driver.solver().time() * SPIN / TAU),
-                ("energy", (balance.now.energy() - balance.initial.energy()) / initial),
-                ("hourglass", modes.hourglass / initial),
-                ("checkerboard", modes.checkerboard / initial),
-                ("stored", (balance.now.shear + balance.now.tension) / initial),
-            ]);
+            let now = driver.look(|solver, balance| {
+                let modes = modes::energies(solver);
+                let initial = balance.initial.kinetic;
+                vec![
+                    solver.time() * SPIN / TAU,
+                    (balance.now.energy() - balance.initial.energy()) / initial,
+                    modes.hourglass / initial,
+                    modes.checkerboard / initial,
+                    (balance.now.shear + balance.now.tension) / initial,
+                ]
+            })?;
+            history.read(&["turn", "energy", "hourglass", "checkerboard", "stored"], &now);
         }
         let largest = |name: &str| history.column(name).iter().map(|v| v.abs()).fold(0.0, f64::max);
         let mut findings = Findings::default();

@@ -7,7 +7,7 @@ use whipple_solver::space::scene::{
 };
 use whipple_solver::units::Units;
 
-use super::parts::discs::{Discs, Rod};
+use super::parts::discs::Discs;
 use super::parts::{Columns, moments, resting};
 use super::{Case, Claim, Claims, Kind, Level, Quantity, Wanted, Weight};
 use crate::plots::{Along, Axis, Figure, Layer, Panel, Series as Curve};
@@ -40,6 +40,9 @@ const STOP: f64 = 80.0;
 const ENTRIES: usize = 160;
 /// Cells across.
 const SIZES: [usize; 2] = [8, 12];
+/// What is read off a state, in this order; lengths in mm.
+const HISTORY: [&str; 8] =
+    ["time", "length", "foot", "foot_left", "reach", "kinetic", "momentum", "dead"];
 const HALF: &str = "viscosity-half";
 const TWICE: &str = "viscosity-twice";
 const VARIANTS: [&str; 3] = ["", HALF, TWICE];
@@ -232,24 +235,30 @@ impl Case for Taylor {
         let [_, length, _] = self.rod;
         let mut discs = Discs::new(driver.solver());
         let mut history = Columns::default();
-        let mut rod = Rod::default();
-        let mut foot = [f64::NAN; 2];
         for k in 0..=ENTRIES {
             driver.advance_to(scene.stop_time * k as f64 / ENTRIES as f64)?;
-            let balance = driver.balance();
-            rod = discs.look(driver.solver());
-            foot = rod.sections.first().map_or(foot, |s| [s.radius, s.left]);
-            history.row([
-                ("time", driver.solver().time()),
-                ("length", MM * rod.length),
-                ("foot", MM * foot[0]),
-                ("foot_left", MM * foot[1]),
-                ("reach", MM * rod.reach),
-                ("kinetic", balance.now.kinetic / balance.initial.kinetic),
-                ("momentum", balance.now.momentum[2]),
-                ("dead", driver.solver().failed().1 as f64),
-            ]);
+            let mut now = driver.look(|solver, balance| {
+                let rod = discs.look(solver);
+                let foot = rod.foot();
+                let mut row = vec![
+                    solver.time(),
+                    MM * rod.length,
+                    MM * foot.radius,
+                    MM * foot.left,
+                    MM * rod.reach,
+                    balance.now.kinetic / balance.initial.kinetic,
+                    balance.now.momentum[2],
+                    solver.failed().1 as f64,
+                ];
+                // A run that goes on has not seen the elements that are dead by then.
+                row.extend(discs.memory());
+                row
+            })?;
+            discs.recall(&now.split_off(HISTORY.len()));
+            history.read(&HISTORY, &now);
         }
+        let rod = discs.look(driver.solver());
+        let foot = rod.foot();
         let lengths = history.column("length");
         let shortest = lengths.iter().copied().fold(f64::INFINITY, f64::min);
         // A rod that has left the wall rings.
@@ -260,8 +269,8 @@ impl Case for Taylor {
         enter("length_ratio", last / (MM * length));
         enter("length_mm", last);
         enter("shortest_mm", shortest);
-        enter("foot_radius_mm", MM * foot[0]);
-        enter("foot_left_mm", MM * foot[1]);
+        enter("foot_radius_mm", MM * foot.radius);
+        enter("foot_left_mm", MM * foot.left);
         enter("foot_reach_mm", MM * rod.reach);
         enter("bulge_radius_mm", MM * rod.radius_at(BULGE * length));
         enter("largest_strain", strains.fold(0.0, f64::max));

@@ -1,9 +1,16 @@
-//! `whipple bench`: what the density costs.
+//! `whipple bench`: what the density costs along a line, and how fast the long rod is.
 
 use whipple_solver::method::{Density, Integrator, Preset};
 
-use super::{BenchArgs, Failure, NUMERICAL_FAILURE, print};
+use super::run::MAX_THREADS;
+use super::{Bench, BenchArgs, Failure, NUMERICAL_FAILURE, print, say};
 use crate::cost::{Comparison, Contender, CostError, EQUAL_LIST, compare};
+use crate::files::{ensure_writable_dir, write_atomic};
+use crate::pace::{self, PaceError, Stretch, measure};
+use crate::plots;
+use crate::record::{RunKey, Scheme};
+use crate::report::{self, Align, Cell, Column, Table};
+use crate::suite::scene_of;
 
 impl From<CostError> for Failure {
     fn from(error: CostError) -> Self {
@@ -14,8 +21,105 @@ impl From<CostError> for Failure {
     }
 }
 
-/// Runs the comparisons and prints them.
+impl From<PaceError> for Failure {
+    fn from(error: PaceError) -> Self {
+        match error {
+            PaceError::Step(error) => Self { code: NUMERICAL_FAILURE, message: error.to_string() },
+            PaceError::Scene(_) | PaceError::Threads { .. } => Self::usage(error),
+        }
+    }
+}
+
+/// Measures what was asked for and prints it.
 pub(super) fn bench(args: &BenchArgs) -> Result<u8, Failure> {
+    let wants = |what: Bench| args.what.is_empty() || args.what.contains(&what);
+    if args.threads == 0 || args.threads > MAX_THREADS {
+        let message = format!("--threads {} must be from 1 to {MAX_THREADS}", args.threads);
+        return Err(Failure::usage(message));
+    }
+    if args.steps == 0 {
+        return Err(Failure::usage("--steps 0 measures nothing"));
+    }
+    if let Some(out) = &args.out {
+        ensure_writable_dir(out)?;
+    }
+    if wants(Bench::Density) {
+        density(args)?;
+    }
+    if wants(Bench::Rod) {
+        rod(args)?;
+    }
+    Ok(0)
+}
+
+/// Speed, phases and memory of the long rod: `default`, the paper's method, and the kernel that it
+/// removes.
+fn rod(args: &BenchArgs) -> Result<(), Failure> {
+    let stretch = if args.whole { Stretch::Whole } else { Stretch::Steps(args.steps) };
+    let rod = super::run::find("long-rod")?;
+    let scene = |scheme: Scheme, variant: &str| {
+        let key = RunKey::new(rod.id(), scheme, args.cells).variant(variant);
+        let scene = scene_of(rod, &key).and_then(|scene| scene.space().cloned());
+        scene.ok_or_else(|| Failure::usage("the long rod is in space"))
+    };
+    let kernel = Scheme::Particles { preset: Preset::Paper, density: Density::Kernel };
+    let mut paces = Vec::new();
+    for (scheme, variant) in [
+        (Scheme::preset(Preset::Default), ""),
+        (Scheme::preset(Preset::Paper), "as-printed"),
+        (kernel, "as-printed"),
+    ] {
+        say(&format!("long rod, {} cells across, {} ...", args.cells, scheme.label()));
+        paces.push(measure(&scheme.label(), &scene(scheme, variant)?, stretch, 1)?);
+    }
+    say(&format!("{} threads ...", args.threads));
+    let plain = scene(Scheme::preset(Preset::Default), "")?;
+    let more = measure("default", &plain, stretch, args.threads)?;
+    let tables = [
+        pace::work(&paces),
+        pace::phases(&paces),
+        pace::threads(&paces[0], &more, pace::triad(paces[0].bytes)),
+    ];
+    for table in &tables {
+        print(&format!("\n{}", grid(table)))?;
+        if let Some(out) = &args.out {
+            write_atomic(&out.join(format!("{}.csv", table.id)), report::csv(table).as_bytes())?;
+        }
+    }
+    if let Some(out) = &args.out {
+        let svg = plots::render_svg(&pace::figure(&paces)).map_err(Failure::usage)?;
+        write_atomic(&out.join("pace.svg"), svg.as_bytes())?;
+    }
+    Ok(())
+}
+
+/// A table for the terminal: names to the left, numbers to the right, its caption below.
+fn grid(table: &Table) -> String {
+    let head = |column: &Column| match column.unit.as_str() {
+        "" => column.name.clone(),
+        unit => format!("{}, {unit}", column.name),
+    };
+    let texts = |row: &Vec<Cell>| row.iter().map(|cell| cell.text.clone()).collect();
+    let mut rows: Vec<Vec<String>> = vec![table.columns.iter().map(head).collect()];
+    rows.extend(table.rows.iter().map(texts));
+    let width =
+        |k: usize| rows.iter().filter_map(|row| row.get(k)).map(|t| t.chars().count()).max();
+    let mut out = String::new();
+    for row in &rows {
+        for (k, text) in row.iter().enumerate() {
+            let width = width(k).unwrap_or(0);
+            match table.columns[k].align {
+                Align::Right => out += &format!("  {text:>width$}"),
+                Align::Left | Align::Center => out += &format!("  {text:<width$}"),
+            }
+        }
+        out += "\n";
+    }
+    out + &table.caption + "\n"
+}
+
+/// Runs the comparisons of the density schemes and prints them.
+fn density(args: &BenchArgs) -> Result<(), Failure> {
     let natural = Preset::Default.method().kernel_support;
     let with = |density, support| Contender { density, support };
     let paper = with(Density::Nonholonomic, natural);
@@ -43,8 +147,7 @@ pub(super) fn bench(args: &BenchArgs) -> Result<u8, Failure> {
     }
     print(
         "CPU time, medians over A B B A rounds; ns per particle and step, and per pair and step.\n",
-    )?;
-    Ok(0)
+    )
 }
 
 fn row(integrator: Integrator, name: &str, found: &Comparison) -> String {

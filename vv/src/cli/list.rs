@@ -8,11 +8,12 @@ use crate::cases::ALL;
 /// Prints the cases.
 pub(super) fn list() -> Result<u8, Failure> {
     let mut text = String::new();
+    let width = ALL.iter().map(|case| case.id().len()).max().unwrap_or(0);
     for case in ALL {
-        text += &format!("{:<18} {}\n", case.id(), case.title());
+        text += &format!("{:<width$} {}\n", case.id(), case.title());
         let named: Vec<&str> = case.variants().iter().copied().filter(|v| !v.is_empty()).collect();
         if !named.is_empty() {
-            text += &format!("{:<18}   variants: {}\n", "", named.join(", "));
+            text += &format!("{:<width$}   variants: {}\n", "", named.join(", "));
         }
     }
     print(&text)?;

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::path::Path;
+use std::time::Duration;
 
 use super::progress::{Outlook, Progress};
 use super::run::find_all;
@@ -14,12 +15,15 @@ use crate::pictures::read_pictures;
 use crate::plots;
 use crate::record::{Outcome, Records};
 use crate::report::{self, Drawing};
-use crate::suite::{records_folder, run_suite, verdicts};
+use crate::suite::{Forecast, forecast, records_folder, run_suite, verdicts};
 
 /// Runs, judges, reports.
 pub(super) fn vv(args: &VvArgs) -> Result<u8, Failure> {
     let cases = find_all(&args.cases)?;
     ensure_writable_dir(&args.out)?;
+    // Records that cannot be read tell nothing, and may be replaced by this very run.
+    let records = Records::read(&records_folder(&args.out)).unwrap_or_default();
+    say(&expected(&forecast(&cases, args.level, &records)));
     let progress = Progress::new(Outlook::default());
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
     let pool = pool.map_err(|e| Failure::usage(format!("cannot start a thread: {e}")))?;
@@ -40,6 +44,27 @@ pub(super) fn vv(args: &VvArgs) -> Result<u8, Failure> {
     let verdicts = draw(&args.out)?;
     let ran = |v: &&Verdict| cases.iter().any(|c| c.id() == v.claim.case);
     conclude(verdicts.iter().filter(ran), &args.out)
+}
+
+/// What to expect, in words.
+fn expected(forecast: &Forecast) -> String {
+    let Forecast { runs, measured, scaled, unknown } = *forecast;
+    let time =
+        |seconds: f64| humantime::format_duration(Duration::from_secs(seconds.ceil() as u64));
+    let mut text = format!("{runs} runs");
+    if unknown < runs {
+        text += &format!(
+            ", about {} of CPU time by the records of the folder",
+            time(measured + scaled)
+        );
+    }
+    if scaled > 0.0 {
+        text += &format!(" ({} of it scaled from other sizes or schemes)", time(scaled));
+    }
+    if unknown > 0 {
+        text += &format!("; no record tells the time of {unknown}");
+    }
+    text
 }
 
 /// Redraws the report, or compares it with what a redraw would give.

@@ -25,7 +25,7 @@ use crate::suggest::did_you_mean;
 use crate::suite::{command_of, scene_of, write_record};
 
 /// Most threads that a run may ask for.
-const MAX_THREADS: usize = 1024;
+pub(super) const MAX_THREADS: usize = 1024;
 
 /// What `--json` prints.
 #[derive(Serialize)]
@@ -150,6 +150,7 @@ fn only_in_space(args: &RunArgs) -> Result<SpaceOptions, Failure> {
         ("--vtu", args.vtu.is_some()),
         ("--resume", args.resume.is_some()),
         ("--max-wall", args.max_wall.is_some()),
+        ("--checkpoint", args.checkpoint.is_some()),
     ];
     if let Some((option, _)) = given.into_iter().find(|(_, given)| *given) {
         let message = format!("{option} needs a case in three dimensions, `{}` is none", args.case);
@@ -170,7 +171,11 @@ fn options(scene: &space::Scene, args: &RunArgs) -> Result<(SpaceOptions, Outloo
         Some(out) => {
             ensure_writable_dir(out)?;
             let recorder = Recorder::new(out, scene, every, from.as_ref());
-            Some(recorder.map_err(Failure::usage)?)
+            let recorder = recorder.map_err(Failure::usage)?;
+            Some(match args.checkpoint {
+                Some(every) => recorder.keeping(every),
+                None => recorder,
+            })
         }
         None => None,
     };
@@ -218,17 +223,17 @@ fn how_to_go_on(args: &RunArgs, command: &str, checkpoint: Option<&Path>) -> Str
     if args.threads != 1 {
         again += &format!(" --threads {}", args.threads);
     }
-    if let Some(time) = args.max_wall {
-        again += &format!(
-            " --max-wall {}",
-            humantime::format_duration(time).to_string().replace(' ', "")
-        );
+    for (option, time) in [("--max-wall", args.max_wall), ("--checkpoint", args.checkpoint)] {
+        if let Some(time) = time {
+            let time = humantime::format_duration(time).to_string().replace(' ', "");
+            again += &format!(" {option} {time}");
+        }
     }
     let [out, checkpoint] = [out, checkpoint].map(|path| path.display());
     format!("; continue with\n  {again} --out {out} --resume {checkpoint}")
 }
 
-fn find(name: &str) -> Result<&'static dyn Case, Failure> {
+pub(super) fn find(name: &str) -> Result<&'static dyn Case, Failure> {
     cases::find(name).ok_or_else(|| {
         let known: Vec<&str> = cases::ALL.iter().map(|c| c.id()).collect();
         let hint = did_you_mean(name, known);

@@ -1,11 +1,12 @@
 //! The section of one case.
 
-use crate::cases::Case;
+use crate::cases::{Case, Level as Extent};
 use crate::claims::{Verdict, order};
 use crate::convergence::{self, Level};
 use crate::plots::Figure;
-use crate::record::{Outcome, Records, RunRecord, Scheme};
-use crate::report::{Block, Cell, Column, Section, Table, sig};
+use crate::record::{Outcome, Records, RunKey, RunRecord, Scheme};
+use crate::report::{Block, Cell, Column, Section, Status, Table, sig};
+use crate::suite::command_of;
 
 use super::front::{claims_table, escaped};
 
@@ -31,12 +32,15 @@ pub(super) fn section(
     blocks.extend(case.extra_tables(records).into_iter().map(Block::Table));
     let runs: Vec<&RunRecord> = records.of_case(case.id()).collect();
     blocks.push(Block::Table(norms_table(case, &runs)));
+    blocks.extend(missing(case, records));
     let failures: Vec<String> = runs.iter().filter_map(|r| failure(r)).collect();
     if !failures.is_empty() {
         blocks.push(Block::Paragraph("Runs that ended in a numerical failure:".into()));
         blocks.push(Block::List(failures));
     }
-    blocks.extend(orders_table(case, &runs).map(Block::Table));
+    if case.tabulates_errors() {
+        blocks.extend(orders_table(case, &runs).map(Block::Table));
+    }
     blocks.extend(grid_table(case, &runs).map(Block::Table));
 
     let figures = case.figures(records);
@@ -48,6 +52,25 @@ pub(super) fn section(
         blocks.push(Block::Picture { id: picture.id.clone(), caption });
     }
     (Section::new(case.id(), case.title(), blocks), figures)
+}
+
+/// The runs of the case that have no record, with the commands that make them.
+fn missing(case: &dyn Case, records: &Records) -> Vec<Block> {
+    let runs = case.runs(Extent::Full);
+    let unmade = |key: &&RunKey| records.get(key).is_none();
+    let missing: Vec<String> =
+        runs.iter().filter(unmade).map(|key| format!("`{}`", command_of(key))).collect();
+    if missing.is_empty() {
+        return Vec::new();
+    }
+    let text = format!(
+        "Of the {} runs that `whipple vv {} --level full` makes {} have no record here, and whatever \
+         needs them is missing above:",
+        runs.len(),
+        case.id(),
+        missing.len()
+    );
+    vec![Block::Callout { kind: Status::Warn, text }, Block::List(missing)]
 }
 
 /// A run that failed, in words.
@@ -87,9 +110,10 @@ fn norms_table(case: &dyn Case, runs: &[&RunRecord]) -> Table {
         }
         row
     });
+    let what = if case.tabulates_errors() { "Errors" } else { "Results" };
     Table {
         id: format!("{}-norms", case.id()),
-        caption: format!("Errors: {}.", case.title()),
+        caption: format!("{what}: {}.", case.title()),
         columns,
         rows: rows.collect(),
     }

@@ -126,6 +126,11 @@ impl<'a> SpaceDriver<'a> {
             self.measured.cpu_seconds += start.elapsed().as_secs_f64();
             stepped?;
             self.follow()?;
+            // The end is kept anyway.
+            let goes_on = self.solver.time() < self.stop;
+            if goes_on && self.recorder.as_mut().is_some_and(Recorder::is_time_to_keep) {
+                self.keep()?;
+            }
             let done = self.solver.counters().particle_steps;
             if !self.monitor.tick(self.solver.time(), self.stop, done) {
                 return Err(RunError::Interrupted { checkpoint: None });

@@ -50,6 +50,8 @@ pub struct Recorder {
     ledger: History,
     saved: Option<Instant>,
     film: Option<Film>,
+    /// Time on the clock between two checkpoints of a run that goes on, and when the last was due.
+    keeping: Option<(Duration, Instant)>,
     /// The last state that was seen.
     good: Option<Simulation>,
 }
@@ -87,8 +89,26 @@ impl Recorder {
             ledger,
             saved: None,
             film,
+            keeping: None,
             good: None,
         })
+    }
+
+    /// Wants a checkpoint this often on the clock, beside the one at the end.
+    #[must_use]
+    pub fn keeping(self, every: Duration) -> Self {
+        Self { keeping: Some((every, Instant::now())), ..self }
+    }
+
+    /// Whether it is time for a checkpoint; the next is then due so much later.
+    pub fn is_time_to_keep(&mut self) -> bool {
+        match &mut self.keeping {
+            Some((every, last)) if last.elapsed() >= *every => {
+                *last = Instant::now();
+                true
+            }
+            _ => false,
+        }
     }
 
     /// Time at which the next frame is due.

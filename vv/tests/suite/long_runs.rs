@@ -8,9 +8,11 @@ use serde_json::Value;
 use whipple_solver::method::Preset;
 use whipple_solver::space::Simulation;
 use whipple_vv::checkpoint::{CheckpointError, ElementType, Reader};
-use whipple_vv::run::{Request, Silent, SpaceOptions, run_with};
-use whipple_vv::space::checkpoint::Halted;
+use whipple_vv::record::RunRecord;
+use whipple_vv::run::{Monitor, Request, RunError, Silent, SpaceOptions, run_with};
+use whipple_vv::space::checkpoint::{Halted, load};
 use whipple_vv::space::measured::{Look, Measured};
+use whipple_vv::space::recorder::Recorder;
 use whipple_vv::suite::scene_of;
 
 use crate::common::{SHORT_ROD, Said, case, cut_short, key, said, whipple};
@@ -195,6 +197,79 @@ fn time_on_the_clock_ends_a_run_that_goes_on() {
             fs::remove_dir_all(folder).expect("it goes away");
         }
     }
+}
+
+/// Stops a run before its end, when every case has looked.
+struct Late;
+
+impl Monitor for Late {
+    fn tick(&self, time: f64, stop: f64, _: u64) -> bool {
+        time < 0.75 * stop
+    }
+}
+
+/// Every case that looks along the way finds the same after a stop on it.
+#[test]
+fn cases_go_on_from_where_they_are() {
+    for (id, variant, n) in [
+        ("planar-impact", "", 16),
+        ("elastic-plastic-piston", "", 40),
+        ("spall", "", 20),
+        ("taylor-copper", "", 4),
+        ("taylor-42crmo4", "", 4),
+        ("free-surface", "", 20),
+        ("spinning-block", "", 10),
+        ("beam", "", 2),
+    ] {
+        let key = key(id, Preset::Default, n).variant(variant);
+        let scene = scene_of(case(id), &key).expect("a scene");
+        let folder = tempfile::tempdir().expect("a folder");
+        let solid = scene.space().expect("a scene in space").clone();
+        let run = |from: Option<Halted>, monitor: &dyn Monitor| {
+            let recorder = Recorder::new(folder.path(), &solid, None, from.as_ref());
+            let recorder = Some(recorder.expect("a recorder"));
+            let options = SpaceOptions { from, recorder, pictures: false };
+            let (key, scene, command) = (key.clone(), Some(scene.clone()), String::new());
+            run_with(case(id), Request { key, scene, threads: 1, command }, options, monitor)
+        };
+        let whole = run(None, &Silent).expect("a run").record;
+        let Err(RunError::Interrupted { checkpoint: Some(path) }) = run(None, &Late) else {
+            panic!("{id}: no checkpoint on the way");
+        };
+        let halted = load(&path, &solid).expect("a checkpoint");
+        assert!(halted.measured.looks.len() > 1, "{id}: it had looked");
+        let parts = run(Some(halted), &Silent).expect("the rest").record;
+        // As text, where what is no number equals itself.
+        let found = |r: &RunRecord| {
+            let RunRecord { norms, history, profile, steps, energy_drift, .. } = r;
+            format!("{norms:?} {history:?} {profile:?} {steps} {energy_drift:?}")
+        };
+        assert_eq!(found(&parts), found(&whole), "{id}");
+    }
+}
+
+/// Checkpoints while the run goes on: the last two are left, and the run is the same.
+#[test]
+fn checkpoints_are_written_along_the_way() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let at = folder.path();
+    assert_well(&rod(at, &["--stop", "2", "--out", "plain"]));
+    assert_well(&rod(at, &["--stop", "2", "--checkpoint", "1us", "--out", "often"]));
+    let [plain, often] = ["plain", "often"].map(|name| at.join(name));
+    let kept = |folder: &Path| {
+        let all = names(folder).into_iter();
+        all.filter(|name| name.ends_with(".whp")).collect::<Vec<String>>()
+    };
+    assert_eq!(kept(&plain), ["checkpoint-000001.whp"]);
+    let [earlier, _] = kept(&often).try_into().expect("the last two");
+    assert_same_run(&plain, &often);
+    fs::remove_dir_all(&plain).expect("it goes away");
+    let from = format!("often/{earlier}");
+    assert!(Reader::open_any(&at.join(&from)).expect("a checkpoint").meta().time < 2.0);
+    fs::create_dir(&plain).expect("a folder");
+    fs::copy(at.join("often/ledger.csv"), plain.join("ledger.csv")).expect("a copy");
+    assert_well(&rod(at, &["--stop", "2", "--out", "plain", "--resume", &from]));
+    assert_same_run(&plain, &often);
 }
 
 /// Ctrl-C does the same; a second one is not needed.

@@ -36,6 +36,12 @@ pub(in crate::cases) struct Rod {
 }
 
 impl Rod {
+    /// The lowest section; not a number where there is none.
+    pub(in crate::cases) fn foot(&self) -> Section {
+        let none = Section { height: f64::NAN, left: f64::NAN, radius: f64::NAN };
+        self.sections.first().copied().unwrap_or(none)
+    }
+
     /// Radius at a height, between the sections; NaN above and below them.
     pub(in crate::cases) fn radius_at(&self, height: f64) -> f64 {
         let pair = self.sections.windows(2).find(|w| w[0].height <= height && height < w[1].height);
@@ -75,6 +81,25 @@ impl Discs {
         }
         let areas = vec![[0.0; 2]; faces.len()];
         Self { faces, areas, layers }
+    }
+
+    /// The areas that the sections are made of: of lower faces, and of upper ones at the top.
+    fn used(&mut self) -> impl Iterator<Item = &mut f64> {
+        let top = self.layers;
+        let faces = self.faces.iter().zip(&mut self.areas);
+        faces.flat_map(move |(&(layer, _), areas)| {
+            areas.iter_mut().take(if layer + 1 == top { 2 } else { 1 })
+        })
+    }
+
+    /// What has been seen of elements that may be dead by the next look.
+    pub(in crate::cases) fn memory(&mut self) -> Vec<f64> {
+        self.used().map(|area| *area).collect()
+    }
+
+    /// Takes back what [`Discs::memory`] gave.
+    pub(in crate::cases) fn recall(&mut self, memory: &[f64]) {
+        self.used().zip(memory).for_each(|(area, seen)| *area = *seen);
     }
 
     /// What is left of the rod.

@@ -61,6 +61,14 @@ impl Columns {
         }
     }
 
+    /// Adds a row of what was read off a state, one number a name.
+    pub(super) fn read(&mut self, names: &[&str], values: &[f64]) {
+        debug_assert_eq!(names.len(), values.len());
+        for (name, value) in names.iter().zip(values) {
+            self.0.entry((*name).into()).or_default().push(*value);
+        }
+    }
+
     /// A column so far.
     pub(super) fn column(&self, name: &str) -> &[f64] {
         self.0.get(name).map_or(&[], Vec::as_slice)

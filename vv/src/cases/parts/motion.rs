@@ -4,7 +4,6 @@
 //! follows from them is made consistent, and the simulation is restored from that.
 
 use whipple_solver::space::Simulation;
-use whipple_solver::space::ledger::Holdings;
 use whipple_solver::space::output::Particle;
 use whipple_solver::space::restart::{RestartError, Section, Values};
 
@@ -85,28 +84,6 @@ fn settle(simulation: &mut Simulation, mut sections: Vec<Section>) -> Result<(),
         }
     }
     simulation.restore(&sections)?;
-    let held = simulation.holdings().iter().fold(Holdings::default(), Holdings::and);
-    let [px, py, pz] = held.momentum;
-    let [lx, ly, lz] = held.angular;
-    let books = [
-        held.mass,
-        px,
-        py,
-        pz,
-        lx,
-        ly,
-        lz,
-        held.kinetic,
-        held.internal,
-        held.shear,
-        held.tension,
-        held.momentum_scale,
-        held.angular_scale,
-    ];
-    // The last thirteen entries are the holdings at the start.
-    with(&mut sections, "run.ledger", |ledger| {
-        let at = ledger.len() - books.len();
-        ledger[at..].copy_from_slice(&books);
-    });
-    Ok(simulation.restore(&sections)?)
+    simulation.start_books();
+    Ok(())
 }

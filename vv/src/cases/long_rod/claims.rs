@@ -1,0 +1,82 @@
+//! Which runs a level asks for, and what is claimed of them.
+
+use whipple_solver::method::Preset;
+
+use super::problem::{EXCHANGED, ID, SIZES, VARIANTS, WIDE};
+use super::published::KNOWN;
+use super::{kernel_key, key, varied_key};
+use crate::cases::{Claim, Claims, Kind, Level, Quantity, Wanted, Weight, conservation_in_space};
+use crate::record::RunKey;
+
+/// The runs of a level: the smallest of `default`; those that a claim at two sizes needs; all.
+pub(super) fn runs(level: Level) -> Vec<RunKey> {
+    let [small, middle, large] = SIZES;
+    let mut keys = vec![key(Preset::Default, small)];
+    if level >= Level::Standard {
+        keys.extend([key(Preset::Paper, small), key(Preset::Default, middle)]);
+    }
+    if level == Level::Full {
+        keys.push(key(Preset::Default, large));
+        keys.extend([key(Preset::Paper, middle), key(Preset::Paper, large)]);
+        keys.extend(VARIANTS[1..].iter().map(|v| varied_key(Preset::Default, v)));
+        // What the uncertainty by the inputs needs; the paper's own reading stands in Table 5.
+        keys.extend(["", EXCHANGED, WIDE].map(|v| varied_key(Preset::Paper, v)));
+        keys.extend(Preset::ALL.map(kernel_key));
+    }
+    keys
+}
+
+/// The claims.
+pub(super) fn all() -> Vec<Claim> {
+    let experiment = Claims::new(
+        ID,
+        Kind::Validation,
+        Weight::Must,
+        "experiment as the paper quotes it; issue; no constant fitted to it",
+    );
+    let table = Claims::new(ID, Kind::Replication, Weight::Aim, "paper, Table 5");
+    let mut out = Vec::new();
+    for n in SIZES {
+        for known in KNOWN.iter().rev() {
+            out.push(experiment.claim(
+                format!("residual {} in {}, n = {n}, `default`", known.name, known.unit),
+                Quantity::Norm(key(Preset::Default, n), known.norm),
+                known.near_experiment(),
+            ));
+        }
+    }
+    for (size, n) in SIZES.into_iter().enumerate() {
+        for known in KNOWN.iter().rev() {
+            out.push(table.claim(
+                format!("residual {} in {}, n = {n}, `paper`, as printed", known.name, known.unit),
+                Quantity::Norm(key(Preset::Paper, n), known.norm),
+                known.near_table_5(size),
+            ));
+        }
+    }
+    let issue = Claims::new(ID, Kind::Verification, Weight::Must, "issue");
+    for key in [Preset::Default, Preset::Paper].map(|preset| key(preset, SIZES[0])) {
+        let scheme = key.scheme.label();
+        out.extend(conservation_in_space(ID, &key));
+        out.push(issue.claim(
+            format!("residual of the elements over the initial kinetic energy, `{scheme}`"),
+            Quantity::Residual(key.clone()),
+            Wanted::WithinZero(1e-3),
+        ));
+        out.push(issue.claim(
+            format!("mass as meshed over that of the shapes, error, `{scheme}`"),
+            Quantity::GeometryMass(key),
+            Wanted::AtMost(1e-3),
+        ));
+    }
+    let area = Claims { source: "issue; gap G25: the size of the plate is inferred", ..issue };
+    for known in &KNOWN {
+        let [wide, plain] = [WIDE, ""].map(|variant| varied_key(Preset::Default, variant));
+        out.push(area.claim(
+            format!("twice the plate: change of the residual {}, n = 5, `default`", known.name),
+            Quantity::Change(wide, plain, known.norm),
+            Wanted::WithinZero(known.edge),
+        ));
+    }
+    out
+}

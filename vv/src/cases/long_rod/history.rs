@@ -1,0 +1,54 @@
+//! What is read off the states of a run.
+
+use whipple_solver::space::Simulation;
+use whipple_solver::space::ledger::Balance;
+
+use super::residual;
+use crate::record::Series;
+
+/// Joules of a Mbar cm^3, in thousands.
+const KILOJOULES: f64 = 100.0;
+
+/// What is read off a state, in this order.
+const HISTORY: [&str; 13] = [
+    "time",
+    "length",
+    "velocity",
+    "mass",
+    "kinetic",
+    "internal",
+    "shear",
+    "tension",
+    "residual",
+    "momentum_x",
+    "momentum_y",
+    "failed",
+    "dt",
+];
+
+/// The numbers of [`HISTORY`] of a state.
+pub(super) fn look(solver: &Simulation, balance: &Balance) -> Vec<f64> {
+    let left = residual::largest(solver, 0);
+    let now = &balance.now;
+    vec![
+        solver.time(),
+        left.length,
+        10.0 * left.velocity,
+        left.mass,
+        KILOJOULES * now.kinetic,
+        KILOJOULES * now.internal,
+        KILOJOULES * now.shear,
+        KILOJOULES * now.tension,
+        KILOJOULES * balance.residual(),
+        now.momentum[0],
+        now.momentum[1],
+        solver.failed().0 as f64,
+        solver.last_step(),
+    ]
+}
+
+/// Histories of a run, column by column.
+pub(super) fn columns(rows: &[Vec<f64>]) -> Series {
+    let column = |k: usize| rows.iter().map(|row| row[k]).collect();
+    Series(HISTORY.into_iter().enumerate().map(|(k, name)| (name.into(), column(k))).collect())
+}

@@ -1,0 +1,154 @@
+//! The problem: bodies, materials in the readings of Table 4, and what the variants change.
+
+use whipple_solver::method::Preset;
+use whipple_solver::space::method::{Method, YieldNorm};
+use whipple_solver::space::scene::{
+    Body, EosData, Failure, Flow, GammaLaw, Material, Scene, Shape, Strength, Turn,
+};
+use whipple_solver::units::Units;
+
+pub(super) const ID: &str = "long-rod";
+/// Diameter and length of the rod, thickness of the plate, in cm: the paper's problem.
+const DIAMETER: f64 = 0.5;
+const LENGTH: f64 = 7.5;
+const THICKNESS: f64 = 0.5;
+/// Edges of the plate along the slope and across it (gap G25), and twice its area.
+const PLATE: [f64; 2] = [7.0, 4.0];
+const WIDE_PLATE: [f64; 2] = [10.0, 5.6];
+/// Speed in cm/us, along the axis of the rod.
+const SPEED: f64 = 0.15;
+/// Angle of the axis from the normal of the plate.
+const OBLIQUITY: f64 = 60.0;
+/// First gap between rod and plate, in cells.
+const GAP: f64 = 0.9;
+const STOP: f64 = 100.0;
+/// Cells across rod and plate that give the particle counts of Table 5 (gap G25).
+pub(super) const SIZES: [usize; 3] = [5, 7, 9];
+/// Readings of the strength in Table 4 (gaps G1, G2): as it is printed; with the columns exchanged that
+/// stand under the wrong metal; the plain variant converts their hardening to Eq. (44) besides.
+pub(super) const AS_PRINTED: &str = "as-printed";
+pub(super) const EXCHANGED: &str = "exchanged";
+/// Twice the plate.
+pub(super) const WIDE: &str = "wide";
+/// Other linear coefficients of the viscosity than 0.3.
+const VISCOSITY_1: &str = "viscosity-1";
+const VISCOSITY_2: &str = "viscosity-2";
+/// The yield function as printed: uniaxial yield at 2.12 Y (gap G3).
+const YIELD_AS_PRINTED: &str = "yield-as-printed";
+
+/// Names of the variants, the plain one first.
+pub(super) const VARIANTS: [&str; 7] =
+    ["", AS_PRINTED, EXCHANGED, WIDE, VISCOSITY_1, VISCOSITY_2, YIELD_AS_PRINTED];
+
+/// What a variant is, in words.
+pub(super) fn words(variant: &str) -> &'static str {
+    match variant {
+        AS_PRINTED => "Table 4 as printed",
+        EXCHANGED => "Table 4 exchanged, not converted",
+        WIDE => "twice the plate",
+        VISCOSITY_1 => "linear viscosity 1",
+        VISCOSITY_2 => "linear viscosity 2",
+        YIELD_AS_PRINTED => "yield function as printed",
+        _ => "Table 4 exchanged and converted",
+    }
+}
+
+/// `Y_o`, `kappa`, `alpha` and melt temperature of Eq. (44).
+type Hardening = [f64; 4];
+
+/// Strength of rod and plate in a reading of Table 4 (gaps G1, G2).
+fn strength(variant: &str) -> [Hardening; 2] {
+    match variant {
+        AS_PRINTED => [[0.0075, 1.15, 0.49, 1700.0], [0.0105, 0.177, 0.12, 1723.0]],
+        EXCHANGED => [[0.0105, 0.177, 0.12, 1723.0], [0.0075, 1.15, 0.49, 1700.0]],
+        _ => [[0.0105, 2.66, 0.12, 1723.0], [0.0075, 5.67, 0.49, 1700.0]],
+    }
+}
+
+/// A metal of Table 4: density, `c0`, `s`, specific heat and shear modulus; equations of state by
+/// gap G23.
+fn metal(name: &str, constants: [f64; 5], hardening: Hardening) -> Material {
+    let [density, c0, s, c_v, shear_modulus] = constants;
+    let [y_0, kappa, alpha, melt] = hardening;
+    let law = GammaLaw::ConstantProduct;
+    let flow = Flow::Hardening { y_0, kappa, alpha, eta: 1.0, reference: 300.0, melt };
+    Material {
+        name: name.into(),
+        density,
+        eos: EosData::MieGruneisen { c0, s, gamma_0: 1.67, law, c_v, theta_0: 300.0 },
+        strength: Some(Strength { shear_modulus, flow: Some(flow) }),
+        // No source gives a spall strength for either alloy.
+        failure: Failure {
+            plastic_strain: Some(1.0),
+            melt: Some(melt),
+            compression: 0.3,
+            spall: None,
+        },
+    }
+}
+
+/// Choices of a variant.
+fn varied(method: Method, variant: &str) -> Method {
+    match variant {
+        VISCOSITY_1 => Method { visc_linear: 1.0, ..method },
+        VISCOSITY_2 => Method { visc_linear: 2.0, ..method },
+        YIELD_AS_PRINTED => Method { yield_norm: YieldNorm::AsPrinted, ..method },
+        _ => method,
+    }
+}
+
+/// Rod and plate with `n` cells across: the plate fills 0 < y < 0.5 cm about x = z = 0, and the axis
+/// of the rod runs through its middle.
+fn bodies(n: usize, plate: [f64; 2]) -> Vec<Body> {
+    let edge = DIAMETER / n as f64;
+    let across = |length: f64| (length / edge).round() as usize;
+    let (sine, cosine) = OBLIQUITY.to_radians().sin_cos();
+    // The lowest point of the rim is a little under the plate.
+    let tip = -(GAP * edge + 0.5 * DIAMETER * sine);
+    let middle = 0.5 * THICKNESS;
+    let ahead = (middle - tip) / cosine;
+    let centre = [-(ahead + 0.5 * LENGTH) * sine, middle - (ahead + 0.5 * LENGTH) * cosine, 0.0];
+    let rod = Body {
+        name: "rod".into(),
+        material: "tungsten alloy".into(),
+        shape: Shape::Cylinder { diameter: DIAMETER, length: LENGTH },
+        cells: [n, n, across(LENGTH)],
+        centre,
+        // From the z axis to the direction of flight.
+        turn: Turn { axis: [-cosine, sine, 0.0], degrees: 90.0 },
+        velocity: [SPEED * sine, SPEED * cosine, 0.0],
+        spin: [0.0; 3],
+        energy: 0.0,
+        noise: 0.0,
+    };
+    let plate = Body {
+        name: "plate".into(),
+        material: "steel".into(),
+        shape: Shape::Box { size: [plate[0], THICKNESS, plate[1]] },
+        cells: [across(plate[0]), n, across(plate[1])],
+        centre: [0.0, middle, 0.0],
+        turn: Turn::default(),
+        velocity: [0.0; 3],
+        spin: [0.0; 3],
+        energy: 0.0,
+        noise: 0.0,
+    };
+    vec![rod, plate]
+}
+
+/// The scene of a preset and a variant with `n` cells across.
+pub(super) fn scene(preset: Preset, variant: &str, n: usize) -> Scene {
+    let [rod, plate] = strength(variant);
+    Scene {
+        name: ID.into(),
+        units: Units::CmGUsMbar,
+        stop_time: STOP,
+        method: varied(preset.space(), variant),
+        walls: Vec::new(),
+        materials: vec![
+            metal("tungsten alloy", [17.6, 0.403, 1.237, 0.143e-5, 1.45], rod),
+            metal("steel", [7.87, 0.4578, 1.33, 0.448e-5, 0.801], plate),
+        ],
+        bodies: bodies(n, if variant == WIDE { WIDE_PLATE } else { PLATE }),
+    }
+}
