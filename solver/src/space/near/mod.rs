@@ -16,12 +16,14 @@ mod tests;
 mod trace;
 mod windows;
 
+use std::sync::{Mutex, PoisonError};
+
 use rayon::prelude::*;
 
 use grid::{Grid, SLACK};
 use join::Joiner;
 use motion::{Free, Motion};
-use search::{CHUNK, Slot};
+use search::{Block, CHUNK, Slot};
 
 /// Flag of a member that can be in contact with any other.
 pub const EXPOSED: u8 = 1;
@@ -78,6 +80,8 @@ pub struct PairList {
     grid: Grid,
     motion: Motion,
     slots: Vec<Slot>,
+    /// Candidates, thread by thread.
+    blocks: Vec<Candidates>,
     joiner: Joiner,
     pairs: Vec<[u32; 2]>,
     /// Pairs to be added.
@@ -85,6 +89,22 @@ pub struct PairList {
     counters: Counters,
     /// Members that the list was made for.
     members: Option<usize>,
+}
+
+/// Memory of one thread; the lock is never waited for.
+#[derive(Debug, Default)]
+struct Candidates(Mutex<Block>);
+
+impl Candidates {
+    fn bytes(&self) -> usize {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).bytes()
+    }
+}
+
+impl Clone for Candidates {
+    fn clone(&self) -> Self {
+        Self::default()
+    }
 }
 
 impl Points<'_> {
@@ -145,18 +165,23 @@ impl PairList {
         if self.slots.len() < chunks {
             self.slots.resize_with(chunks + chunks / 4, Slot::default);
         }
-        let Self { grid, motion, slots, .. } = self;
+        if self.blocks.len() < rayon::current_num_threads() {
+            self.blocks.resize_with(rayon::current_num_threads(), Candidates::default);
+        }
+        let Self { grid, motion, slots, blocks, .. } = self;
         let slots = slots[..chunks].par_iter_mut().enumerate();
         rayon::join(
-            || slots.for_each(|(c, slot)| slot.search(grid, c, keep)),
+            || {
+                slots.for_each(|(c, slot)| {
+                    let own = rayon::current_thread_index().unwrap_or(0);
+                    // Of a thread that panicked nothing is left that matters: blocks are filled anew.
+                    let block = blocks[own].0.lock();
+                    let mut block = block.unwrap_or_else(PoisonError::into_inner);
+                    slot.search((grid, &mut block), c, keep);
+                });
+            },
             || motion.start(grid),
         );
-        // What one chunk needed, another may need next time.
-        let most =
-            self.slots.iter().map(Slot::used).fold([0; 2], |a, b| [a[0].max(b[0]), a[1].max(b[1])]);
-        for slot in &mut self.slots {
-            slot.reserve(most);
-        }
     }
 
     /// The pairs `[i, j]` with `i < j`, sorted by `i` and then by `j`.
@@ -207,7 +232,8 @@ impl PairList {
     /// Bytes that it takes.
     #[must_use]
     pub fn bytes(&self) -> usize {
-        let slots: usize = self.slots.iter().map(Slot::bytes).sum();
+        let slots: usize = self.slots.iter().map(|slot| held(&slot.pairs)).sum();
+        let slots = slots + self.blocks.iter().map(Candidates::bytes).sum::<usize>();
         let lists = held(&self.pairs) + held(&self.batch) + self.joiner.bytes();
         self.grid.bytes() + self.motion.bytes() + slots + lists
     }

@@ -6,7 +6,6 @@
 
 use super::grid::{Grid, Member};
 use super::held;
-use super::sort::roomy;
 use super::windows::Windows;
 
 /// Cells per chunk.
@@ -25,12 +24,11 @@ pub(super) struct Slot {
     pub(super) pairs: Vec<[u32; 2]>,
     /// Distances compared.
     pub(super) tests: u64,
-    block: Block,
 }
 
 /// Candidates of a cell, relative to it, in units of the longest reach.
 #[derive(Debug, Clone, Default)]
-struct Block {
+pub(super) struct Block {
     x: Vec<f32>,
     y: Vec<f32>,
     z: Vec<f32>,
@@ -55,6 +53,12 @@ impl Frame {
 }
 
 impl Block {
+    /// Bytes that it takes.
+    pub(super) fn bytes(&self) -> usize {
+        let columns = [&self.x, &self.y, &self.z, &self.limit].map(held);
+        columns.iter().sum::<usize>() + held(&self.id)
+    }
+
     /// Makes room for that many candidates and those that fill the last group of lanes.
     fn reserve(&mut self, n: usize) {
         let n = n.next_multiple_of(LANES);
@@ -91,38 +95,25 @@ impl Block {
 }
 
 impl Slot {
-    /// Bytes that it takes.
-    pub(super) fn bytes(&self) -> usize {
-        let block = &self.block;
-        let columns = [&block.x, &block.y, &block.z, &block.limit].map(held);
-        held(&self.pairs) + columns.iter().sum::<usize>() + held(&block.id)
-    }
-
-    /// Lengths of the lists of pairs and of candidates.
-    pub(super) fn used(&self) -> [usize; 2] {
-        [self.pairs.len(), self.block.id.len()]
-    }
-
-    /// Makes room for that many pairs and candidates.
-    pub(super) fn reserve(&mut self, [pairs, candidates]: [usize; 2]) {
-        roomy(&mut self.pairs, pairs);
-        self.block.reserve(candidates);
-    }
-
     /// Searches chunk `c` of the cells.
-    pub(super) fn search(&mut self, grid: &Grid, c: usize, keep: &impl Fn(u32, u32) -> bool) {
+    pub(super) fn search(
+        &mut self,
+        (grid, block): (&Grid, &mut Block),
+        c: usize,
+        keep: &impl Fn(u32, u32) -> bool,
+    ) {
         self.pairs.clear();
         self.tests = 0;
         let mut windows = Windows::new(grid, c * CHUNK);
         for cell in c * CHUNK..((c + 1) * CHUNK).min(grid.keys.len()) {
             windows.advance(grid, cell);
-            self.cell(grid, cell, &windows, keep);
+            self.cell((grid, block), cell, &windows, keep);
         }
     }
 
     fn cell(
         &mut self,
-        grid: &Grid,
+        (grid, block): (&Grid, &mut Block),
         cell: usize,
         windows: &Windows,
         keep: &impl Fn(u32, u32) -> bool,
@@ -133,16 +124,16 @@ impl Slot {
         let own = if windows.own { members } else { &[] };
         let others = windows.cells.iter().map(|&cells| range(&grid.all, &grid.start, cells));
         let all = std::iter::once(own).chain(others);
-        self.scan_all(exposed, &all, (&frame, windows.own), keep);
+        self.scan_all((exposed, block), &all, (&frame, windows.own), keep);
         let cells = windows.cells.iter().flat_map(|&[from, to]| from..to);
         let others = cells.map(|cell| grid.exposed(cell));
-        self.scan_all(hidden, &others, (&frame, false), keep);
+        self.scan_all((hidden, block), &others, (&frame, false), keep);
     }
 
     /// Compares members with the candidates in the ranges, of which they are the first if `own`.
     fn scan_all<'a>(
         &mut self,
-        members: &[Member],
+        (members, block): (&[Member], &mut Block),
         ranges: &(impl Iterator<Item = &'a [Member]> + Clone),
         (frame, own): (&Frame, bool),
         keep: &impl Fn(u32, u32) -> bool,
@@ -150,20 +141,20 @@ impl Slot {
         if members.is_empty() {
             return;
         }
-        self.block.fill(ranges.clone(), frame);
+        block.fill(ranges.clone(), frame);
         let mut frame = *frame;
         for (k, member) in members.iter().enumerate() {
             let first = if own { k + 1 } else { 0 };
-            if first >= self.block.used {
+            if first >= block.used {
                 return;
             }
             if frame.place(member).iter().any(|along| along.abs() > FAR) {
                 // Only by folding are they in the same cell: `f32` needs an origin nearby.
                 frame.origin = member.at;
-                self.block.fill(ranges.clone(), &frame);
+                block.fill(ranges.clone(), &frame);
             }
-            self.tests += (self.block.used - first) as u64;
-            self.scan((frame.place(member), member), first, keep);
+            self.tests += (block.used - first) as u64;
+            self.scan((frame.place(member), member), (block, first), keep);
         }
     }
 
@@ -172,10 +163,10 @@ impl Slot {
     fn scan(
         &mut self,
         (at, member): ([f32; 3], &Member),
-        first: usize,
+        (block, first): (&Block, usize),
         keep: &impl Fn(u32, u32) -> bool,
     ) {
-        let Block { x, y, z, limit, id, used } = &self.block;
+        let Block { x, y, z, limit, id, used } = block;
         let columns = x[..used.next_multiple_of(LANES)]
             .as_chunks()
             .0
