@@ -80,7 +80,8 @@ fn metal(name: &str, constants: [f64; 5], hardening: Hardening) -> Material {
         density,
         eos: EosData::MieGruneisen { c0, s, gamma_0: 1.67, law, c_v, theta_0: 300.0 },
         strength: Some(Strength { shear_modulus, flow: Some(flow) }),
-        // No source gives a spall strength for either alloy.
+        // None is known for the steel; 1.9 GPa of another tungsten alloy (`references/materials.toml`) is
+        // not carried over.
         failure: Failure {
             plastic_strain: Some(1.0),
             melt: Some(melt),
@@ -208,7 +209,8 @@ impl Case for LongRod {
          its velocity the mean of its particles by mass. n counts the cells across rod and plate. The \
          plain variant exchanges the columns of Table 4 that stand under the wrong metal and converts \
          their hardening to Eq. (44); `as-printed` takes the table as it is, `exchanged` does not \
-         convert. No spall strength: none was found for these alloys. `wide` has twice the plate, \
+         convert. No spall strength: none was found for these alloys; `references/materials.toml` has 1.7 to \
+         2.0 GPa of a 93 % tungsten alloy. `wide` has twice the plate, \
          `viscosity-1` and `viscosity-2` other linear coefficients. No constant was fitted to this case."
     }
 
