@@ -76,11 +76,13 @@ impl Chain {
     /// neighbours act.
     pub(crate) fn new(scene: &Scene, far: bool) -> (Self, Vec<f64>) {
         let n = scene.particles();
-        let images = if far { IMAGES } else { 2 }.min(n);
+        let images = if far { IMAGES } else { 2 };
         let wall = |b| {
             if let Boundary::Mirror(x) = b { Some(x) } else { None }
         };
         let walls = [wall(scene.boundaries.left), wall(scene.boundaries.right)];
+        // Two walls mirror each other's images; one alone has as many as there are particles.
+        let images = if walls.iter().all(Option::is_some) { images } else { images.min(n) };
         let [before, behind] = walls.map(|w| if w.is_some() { images } else { 0 });
 
         let total = before + n + behind;
@@ -179,6 +181,15 @@ impl Chain {
         self.rows[usize::from(self.body[i])].compression
     }
 
+    /// Whether there would be further images beyond the last on the left and on the right.
+    #[must_use]
+    pub fn unending(&self) -> [bool; 2] {
+        let [left, right] = self.walls.map(|wall| wall.is_some());
+        let kept = self.first.max(self.len() - self.end);
+        let more = left && right || kept < self.end - self.first;
+        [left && more, right && more]
+    }
+
     /// Whether there are images on the left and on the right.
     #[must_use]
     pub fn walled(&self) -> [bool; 2] {
@@ -254,12 +265,14 @@ impl Chain {
         left.into_iter().chain(right).filter(|c| c.nearest).map(|c| c.zeta)
     }
 
-    /// Images and what they are images of, as pairs of indices.
+    /// Images and what they are images of, as pairs of indices: particles, or images that come earlier.
     pub fn images(&self) -> impl Iterator<Item = (usize, usize)> + 'static {
         let (first, end, total) = (self.first, self.end, self.len());
-        let left = (0..first).map(move |k| (first - 1 - k, first + k));
-        let right = (0..total - end).map(move |k| (end + k, end - 1 - k));
-        left.chain(right)
+        (0..first.max(total - end)).flat_map(move |k| {
+            let left = (k < first).then(|| (first - 1 - k, first + k));
+            let right = (k < total - end).then(|| (end + k, end - 1 - k));
+            left.into_iter().chain(right)
+        })
     }
 
     /// Puts every image where its wall shows it: `x` mirrored, `v` reversed.

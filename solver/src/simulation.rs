@@ -409,10 +409,11 @@ impl<P: Physics<1>> Simulation<P> {
     }
 
     /// Index of a particle as the user counts: from 0, images as what they are images of.
-    fn label(&self, i: usize) -> usize {
-        let real = self.chain.real();
-        let of = self.chain.images().find(|&(image, _)| image == i).map_or(i, |(_, of)| of);
-        of - real.start
+    fn label(&self, mut i: usize) -> usize {
+        while let Some((_, of)) = self.chain.images().find(|&(image, _)| image == i) {
+            i = of;
+        }
+        i - self.chain.real().start
     }
 }
 

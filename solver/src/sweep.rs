@@ -207,7 +207,7 @@ impl<P: Physics<1>> Sweep<'_, P> {
     ) {
         let range = self.laws.support * self.chain.longest();
         let extent = self.laws.density.extent(i);
-        let (real, walled) = (self.chain.real(), self.chain.walled());
+        let (real, unending) = (self.chain.real(), self.chain.unending());
         let mut left = None;
         for j in i + reached + 1..self.chain.len() {
             let r = self.state.x[j] - self.state.x[i];
@@ -215,8 +215,8 @@ impl<P: Physics<1>> Sweep<'_, P> {
                 break;
             }
             // Beyond the last image the wall would be forgotten.
-            let forgotten = (i == 0 && walled[0] && j >= real.start)
-                || (j + 1 == self.chain.len() && walled[1] && i < real.end);
+            let forgotten = (i == 0 && unending[0] && j >= real.start)
+                || (j + 1 == self.chain.len() && unending[1] && i < real.end);
             if j - i >= REACH || forgotten {
                 sums.overflow.get_or_insert(i);
                 break;

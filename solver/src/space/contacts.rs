@@ -1,5 +1,5 @@
-//! Contacts between particles that are not neighbours in live material: Eqs. (34)-(36), (78), the
-//! viscosity (51)-(53) and the conduction (56)-(57).
+//! Contacts between particles that are not neighbours in live material: Eqs. (34)-(36), the force (67) in
+//! the form (78), the viscosity (51)-(53) and the conduction (56)-(57), (62).
 //!
 //! Members are the particles that can take part: with elements that carry the pressure, those on
 //! surfaces and of dead elements, and two layers below; without, all. A list of pairs in reach is
@@ -503,7 +503,8 @@ impl Contacts {
         }
     }
 
-    /// Density rates, pressure work and viscous heat over the mean velocities of the step.
+    /// Density rates (36), pressure work (59) and viscous heat, the first term of Eq. (60) given half to each,
+    /// over the mean velocities of the step.
     pub fn work(
         &self,
         mesh: &Mesh,

@@ -4,6 +4,11 @@
 //! A cell has nine particles: slot `b1 + 2 b2 + 4 b3` for the corner with these bits along the fast,
 //! mid and slow axes, and the centroid. Everything is computed from displacements relative to the
 //! translation of the body, so that a body at rest in its own frame is exactly free of force.
+//!
+//! The potential depends on positions through (27), damage and plastic strain: (28). Its gradient by
+//! positions is the force `g` of (29) and (63). That by damage and plastic strain, (66), is met by the
+//! constraints alone: with the multiplier 1 of the energy (70) and shares that sum to one, those of
+//! (71)-(73) are zero, and neither exerts a force.
 
 use super::columns::{AllSlices, SumsSlices};
 use super::hourglass::Hourglass;
@@ -80,7 +85,7 @@ pub struct Demand {
     pub rate: f64,
     /// Whether an element is to die after the step.
     pub dying: bool,
-    /// Heat of plastic flow and damage.
+    /// Heat of plastic flow and damage, Eq. (61).
     pub heat: f64,
 }
 
@@ -432,7 +437,8 @@ impl Group {
         y
     }
 
-    /// First pass: forces, conduction and the heat of flow and damage.
+    /// First pass: forces, conduction (62) and the heat of flow and damage (61), half of it to the centroid
+    /// and a sixteenth to each corner: `phi` of (60).
     #[inline(always)]
     pub fn load_particles<F: Lanes>(
         &mut self,
@@ -587,8 +593,9 @@ impl Group {
         self.failed |= self.dying;
     }
 
-    /// Damage of failed lanes, Eq. (47), and the energy that it sets free. A dying element loses all
-    /// of its strength at once, so that no stored energy is left in it.
+    /// Damage of failed lanes, Eqs. (47), (49)-(50), and the energy that it sets free, (31) times the step
+    /// of the damage. A dying element loses all of its strength at once, so that no stored energy is left
+    /// in it.
     #[inline(always)]
     fn damage<F: Lanes>(&mut self, body: &Body, (opening, held): (&[F; 6], F), dt: f64) -> F {
         if self.failed & self.live == 0 {
@@ -608,7 +615,7 @@ impl Group {
         released
     }
 
-    /// Shear energy per damage, from the stress of the last step.
+    /// Shear energy per damage, `Gamma^d` of Eq. (31), from the stress of the last step.
     #[inline(always)]
     fn shear_energy<F: Lanes>(&self, body: &Body) -> F {
         let intact = F::splat(1.0) - F::of(self.damage);
@@ -619,7 +626,8 @@ impl Group {
         (energy * body.cell_volume).keep(some)
     }
 
-    /// Shear stress and plastic flow; the heat of the flow.
+    /// Shear stress (30) and plastic flow (48); the heat of the flow, the last term of Eq. (61), by the mean
+    /// stress of the step.
     #[inline(always)]
     fn shear<F: Lanes>(
         &mut self,
@@ -749,8 +757,9 @@ impl Group {
         most * body.damping()
     }
 
-    /// Second pass: volumes and, all over the mean velocity of the step, their rates, the viscous heat,
-    /// and the power of the elements' own forces. Returns that power.
+    /// Second pass: volumes and, all over the mean velocity of the step, their rates, which take the place
+    /// of Eq. (36) in the pressure work (59), the viscous heat of Eq. (60), half to either particle, and the
+    /// power of the elements' own forces. Returns that power.
     #[inline(always)]
     pub fn work<F: Lanes>(&self, body: &Body, laws: &Laws, sink: &mut Sink<AllSlices<'_>>) -> f64 {
         let first = [sink.first_node, sink.first_centre];
@@ -840,7 +849,7 @@ impl Group {
     }
 }
 
-/// Tension of a pyramid, Eq. (25).
+/// Tension of a pyramid, Eq. (25), with the bracket (26).
 #[inline(always)]
 fn tension<F: Lanes>(opening: F, intact: F, body: &Body) -> F {
     intact * body.solid.bulk * opening.max(F::zero())
@@ -938,7 +947,8 @@ impl<F: Lanes> Kinematics<F> {
         mean * q.max(F::splat(1.0))
     }
 
-    /// First Piola-Kirchhoff stress of the shear energy, rows turned to global axes.
+    /// First Piola-Kirchhoff stress of the shear energy (24) by the strain (14)-(16), rows turned to global
+    /// axes.
     #[inline(always)]
     fn piola(&self, s: &Sym<F>, body: &Body) -> [F; 9] {
         let q = self.root * self.root;

@@ -156,8 +156,8 @@ impl Solid {
         }
     }
 
-    /// Flow of up to eight elements, Eqs. (38)-(46): brings the effective stress back to the yield
-    /// surface.
+    /// Flow of up to eight elements, Eqs. (38)-(46): the constraint (48) as a step that brings the
+    /// effective stress back to the yield surface.
     ///
     /// The elastic strain is `total - plastic`; `modulus` is `2 (1 - d) mu` and `theta` the elements'
     /// temperature. Only lanes of `live` flow. Returns the stress.
@@ -281,6 +281,7 @@ fn scaled<F: Lanes>(t: &Sym<F>, factor: F) -> Sym<F> {
     each!(k => factor * t[k])
 }
 
+/// `S` of Eq. (30), of the elastic strain (16).
 #[inline(always)]
 fn stress_of<F: Lanes>(total: &Sym<F>, plastic: &Sym<F>, modulus: F) -> Sym<F> {
     each!(k => modulus * (total[k] - plastic[k]))
@@ -293,7 +294,7 @@ fn homologous<F: Lanes>(theta: F, reference: f64, melt: f64) -> F {
     h.max(F::zero()).min(F::splat(1.0))
 }
 
-/// `C^p = I + 2 E^p`.
+/// `C^p = I + 2 E^p`, Eq. (17).
 #[inline(always)]
 fn c_of<F: Lanes>(plastic: &Sym<F>) -> Sym<F> {
     each!(k => plastic[k] * 2.0 + if k < 3 { 1.0 } else { 0.0 })

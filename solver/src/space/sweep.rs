@@ -128,7 +128,7 @@ impl Kernel for RespondPiece<'_, '_> {
 
 impl Particles<'_> {
     /// Turns the forces on the particles from `i` on, at `at` in the columns, into their mean
-    /// velocities over the step, Eq. (74).
+    /// velocities over the step, Eqs. (63), (74).
     #[inline(always)]
     pub fn kick<F: Lanes>(&self, columns: &mut AllSlices<'_>, at: usize, i: usize) {
         let (Stage::Whole(kick, _) | Stage::Moved(kick, _)) = self.stage else { return };
@@ -187,8 +187,9 @@ struct Now<F> {
 }
 
 impl<F: Lanes> Eight<'_, F> {
-    /// Ends the last step, Eqs. (36), (58), (74) and (76). Returns what is known at the time of the
-    /// positions, the change of the volume, and whether all is finite.
+    /// Ends the last step, Eqs. (36), (58)-(59), (74) and (76); the density of held particles follows their
+    /// volumes instead of (36). Returns what is known at the time of the positions, the change of the
+    /// volume, and whether all is finite.
     #[inline(always)]
     fn end_step(
         &self,
@@ -255,7 +256,8 @@ impl<F: Lanes> Eight<'_, F> {
         now
     }
 
-    /// Pressure and what follows from it, Eq. (22), and what that allows.
+    /// Pressure and what follows from it, Eq. (22), and what that allows. `m P / rho^2` of (29) is the
+    /// multiplier of the density, (65) and (69); that of the energy is one, (70).
     #[inline(always)]
     fn evaluate(
         &self,

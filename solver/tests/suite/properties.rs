@@ -455,3 +455,26 @@ fn mirror_is_a_plane_of_symmetry() {
         assert!(apart(&half.theta, &whole.theta[40..]) < 1e-9, "{preset:?}");
     }
 }
+
+/// Three particles between walls, squeezed so that contacts reach beyond the images of all of them, move
+/// as they do among their images written out as particles.
+#[test]
+fn two_walls_mirror_each_other() {
+    // Each body grows about its middle: so does its image.
+    let growing = |k: u8| Body {
+        compression: 4.0,
+        energy: Profile::Uniform(1.0),
+        velocity: Profile::Linear { at_origin: -0.2 * (f64::from(k) + 0.5), slope: 0.2 },
+        ..body(f64::from(k), f64::from(k) + 1.0, 3)
+    };
+    let few = vec![growing(0)];
+    let many: Vec<Body> = (0..4).map(growing).collect();
+    let between = |high, bodies| {
+        let walls = ends(Boundary::Mirror(0.0), Boundary::Mirror(high));
+        scene(Preset::Paper.method(), IDEAL_GAS, walls, bodies)
+    };
+    let [few, many] = in_step(&[between(1.0, few), between(4.0, many)], 10);
+    assert!(few.time > 0.0);
+    assert!(apart(&few.x, &many.x[..3]) < 1e-12 && apart(&few.v, &many.v[..3]) < 1e-12);
+    assert!(apart(&few.rho, &many.rho[..3]) < 1e-12 && apart(&few.u, &many.u[..3]) < 1e-12);
+}

@@ -61,14 +61,15 @@ pub(super) const COPPER_ROD: Taylor = Taylor {
             the disc with the area of the faces in one plane of the lattice, which does not see how the \
             rim of the circle is stepped; faces of dead elements stay as large as they were last \
             seen live. The reach is the farthest node of a live element from the axis. The final sizes of \
-            the experiment are recalled, not read: they are shown, and nothing required rests on them. \
+            the experiment, 0.638 of the length and 1.78 of the diameter, were read in a transcription of \
+            digitised figures, not in the reports themselves: nothing required rests on them. \
             Variants have half and twice every coefficient of the viscosity.",
-    source: "Johnson and Cook (1983), constants and speed as in `references/materials.toml` and \
-             `references/taylor_impact.csv`; equation of state of copper OFHC",
+    source: "Johnson and Cook (1983), constants as in `references/materials.toml`, test as in \
+             `references/taylor_impact.csv` (bbanerjee/HighRateExptData); equation of state of copper OFHC",
     rod: [0.762, 2.54, 0.019],
     material: copper,
-    wanted: [1.62, 0.675],
-    reference: "experiment, recalled",
+    wanted: [1.62, 0.678],
+    reference: "experiment, transcribed",
     share: 0.05,
     variants: &VARIANTS,
 };

@@ -77,7 +77,8 @@ fn metal(name: &str, constants: [f64; 5], hardening: Hardening) -> Material {
         density,
         eos: EosData::MieGruneisen { c0, s, gamma_0: 1.67, law, c_v, theta_0: 300.0 },
         strength: Some(Strength { shear_modulus, flow: Some(flow) }),
-        // No source gives a spall strength for either alloy.
+        // None is known for the steel; 1.9 GPa of another tungsten alloy (`references/materials.toml`) is
+        // not carried over.
         failure: Failure {
             plastic_strain: Some(1.0),
             melt: Some(melt),
