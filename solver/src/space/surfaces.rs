@@ -9,7 +9,7 @@
 
 use super::columns::{Derived, State, Sums};
 use super::contacts::{Contacts, Member, steepness};
-use super::lattice::NONE;
+use super::lattice::{NONE, cross};
 use super::mesh::{Body, Mesh};
 use super::method::Method;
 
@@ -73,31 +73,50 @@ impl Law {
     }
 }
 
+/// Places of springs that a member has: its own, and those of the faces across each axis of which it
+/// is the first corner.
+const PLACES: usize = 4;
+
+/// Part of a face's area that its corners act for, all four; its middle acts for the rest. So a pressure
+/// that varies over the face does the work on each corner that it does on the bilinear face.
+const CORNERS: f64 = 1.0 / 3.0;
+
+/// Least cosine between the way of a spring and the normal of a face from whose middle it starts.
+const FACING: f64 = 0.5;
+
 /// Face of an element.
 #[derive(Debug, Clone, Copy)]
 struct Face {
-    /// Its corners, in order round it.
+    /// Its corners, in order about the axis that it lies across, from the lowest.
     nodes: [usize; 4],
 }
 
-/// A particle in front of a surface, in touch with it or not.
+/// A point of a body in front of a surface, in touch with it or not: a particle, or the middle of a face.
 #[derive(Debug, Clone, Copy)]
 struct Spring {
-    member: usize,
-    particle: usize,
+    /// Its place among those of all members.
+    slot: usize,
+    /// The particles that it is the mean of.
+    own: [usize; 4],
+    /// How many they are.
+    ends: usize,
     body: usize,
     /// Body of the surface.
     other: usize,
     face: Face,
     /// Shares of the corners in the nearest point.
     share: [f64; 4],
-    /// Unit vector from the surface to the particle.
+    /// Unit vector from the surface to the point.
     way: [f64; 3],
     distance: f64,
     /// Distance at which the spring begins.
     stand: f64,
-    /// Area that the particle acts for.
+    /// Area that the point acts for.
     area: f64,
+    /// Area that acts on its particles over that.
+    crowd: f64,
+    /// Its pulls, among those of all springs.
+    pulls: [u32; 2],
     /// Stiffness, an energy over area.
     stiffness: f64,
     force: f64,
@@ -105,62 +124,91 @@ struct Spring {
     drag: f64,
 }
 
+/// How the area that a point acts for changes as a node of its surface moves.
+#[derive(Debug, Clone, Copy)]
+struct Pull {
+    node: usize,
+    /// Gradient of the area.
+    slope: [f64; 3],
+}
+
 impl Spring {
-    /// Of a member on a face of another body, to be seen yet.
-    fn new(mesh: &Mesh, (member, one): (usize, &Member), other: usize, face: Face) -> Self {
-        let own = &mesh.bodies[one.body];
+    /// From some particles of a body to a face of another one, to be seen yet.
+    fn new(
+        mesh: &Mesh,
+        slot: usize,
+        (own, body): (&[usize], usize),
+        (face, other): (Face, usize),
+    ) -> Self {
+        let first = &mesh.bodies[body];
         let soft = |body: &Body| 1.0 / (body.rho_0 * body.solid.sound.powi(2));
-        let series = 1.0 / (soft(own) + soft(&mesh.bodies[other]));
+        let series = 1.0 / (soft(first) + soft(&mesh.bodies[other]));
+        let mut all = [own[0]; 4];
+        all[..own.len()].copy_from_slice(own);
         Self {
-            member,
-            particle: one.particle,
-            body: one.body,
+            slot,
+            own: all,
+            ends: own.len(),
+            body,
             other,
             face,
             share: [0.0; 4],
             way: [0.0; 3],
             distance: f64::INFINITY,
             stand: 0.0,
-            // A node of a flat surface has a quarter of a cell.
-            area: 4.0 * mesh.mass[one.particle] / (own.rho_0 * own.edge()),
-            stiffness: STIFFNESS * own.edge() * series,
+            // A loose particle acts for what one of its mass has of a flat surface.
+            area: 4.0 * mesh.mass[own[0]] / (first.rho_0 * first.edge()),
+            crowd: 1.0,
+            pulls: [0; 2],
+            stiffness: STIFFNESS * first.edge() * series,
             force: 0.0,
             drag: 0.0,
         }
     }
 
     fn energy(&self) -> f64 {
-        self.area * self.stiffness * Law::energy(self.distance / self.stand)
+        self.area * self.tension()
     }
 
-    /// Velocity of the particle towards the surface.
+    /// Energy over area.
+    fn tension(&self) -> f64 {
+        self.stiffness * Law::energy(self.distance / self.stand)
+    }
+
+    /// Its own pulls among all.
+    fn own_pulls<'a>(&self, pulls: &'a [Pull]) -> &'a [Pull] {
+        &pulls[self.pulls[0] as usize..self.pulls[1] as usize]
+    }
+
+    /// Velocity of the point towards the surface.
     fn approach(&self, mesh: &Mesh, velocity: impl Fn(usize) -> [f64; 3]) -> f64 {
-        let mut relative = velocity(self.particle);
-        let drift = mesh.drift_of(self.body, self.other);
-        relative.iter_mut().zip(drift).for_each(|(v, drift)| *v += drift);
-        for (&j, share) in self.face.nodes.iter().zip(self.share) {
-            relative.iter_mut().zip(velocity(j)).for_each(|(v, u)| *v -= share * u);
+        let mut relative = mesh.drift_of(self.body, self.other);
+        for (i, share) in self.shares() {
+            relative.iter_mut().zip(velocity(i)).for_each(|(v, u)| *v += share * u);
         }
         -dot(self.way, relative)
     }
 
     /// Particles that take part, with their shares of the force.
     fn shares(&self) -> impl Iterator<Item = (usize, f64)> {
-        let corners = self.face.nodes.into_iter().zip(self.share.map(|share| -share));
-        std::iter::once((self.particle, 1.0)).chain(corners)
+        let part = 1.0 / self.ends as f64;
+        let own = self.own.into_iter().take(self.ends).map(move |i| (i, part));
+        own.chain(self.face.nodes.into_iter().zip(self.share.map(|share| -share)))
     }
 }
 
 /// Lower half of a number.
 const HALF: u64 = 0xffff_ffff;
 
-/// What surfaces keep from step to step, particle by particle.
+/// What surfaces keep from step to step, of the [`PLACES`] of every particle.
 pub(super) struct Memory {
-    /// Distance at which the particle feels a surface.
+    /// Distance at which the point feels a surface.
     pub(super) stand: Vec<f64>,
     /// Distance of the surface when it was last looked at.
     pub(super) distance: Vec<f64>,
-    /// Corners of the face, two in a number, two numbers a particle; all bits set for none.
+    /// Area that the point acted for.
+    pub(super) area: Vec<f64>,
+    /// Corners of the face, two in a number, two numbers a place; all bits set for none.
     pub(super) face: Vec<u64>,
 }
 
@@ -174,20 +222,19 @@ impl Memory {
     }
 }
 
-/// The particles in front of surfaces.
+/// The points in front of surfaces.
 #[derive(Debug, Clone, Default)]
 pub struct Surfaces {
     /// Whether there can be any.
     some: bool,
-    /// Distance at which each member feels a surface: that at which it was first seen, at most the
-    /// full one, and growing with the distance.
-    stand: Vec<f64>,
     /// Nearest node of another body's surface and the square of its distance, by member.
     nearest: Vec<(f64, u32)>,
-    /// By member, in order.
+    /// By slot, in order.
     springs: Vec<Spring>,
     /// Those of the last step.
     before: Vec<Spring>,
+    /// Changes of the areas of pressed springs.
+    pulls: Vec<Pull>,
 }
 
 impl Surfaces {
@@ -197,53 +244,64 @@ impl Surfaces {
         Self { some: volumes && mesh.bodies.len() > 1, ..Self::default() }
     }
 
-    /// The first member that stands too close to a surface to feel it: distance, and what it must be.
+    /// The first point that stands too close to a surface to feel it: its body, distance, and what
+    /// that must be.
     pub fn too_close(&mut self, mesh: &Mesh, contacts: &Contacts) -> Option<(usize, [f64; 2])> {
-        self.look(mesh, contacts);
-        (0..self.stand.len()).find_map(|member| {
-            let one = contacts.member(member);
-            let least = CLOSE * STAND * mesh.bodies[one.body].edge();
-            let near = self.nearest[member].1 != NONE && self.stand[member] < 0.99 * least;
-            near.then_some((one.body, [self.stand[member], least]))
-        })
+        let mut first = None;
+        self.look(mesh, contacts, |spring| {
+            let least = CLOSE * STAND * mesh.bodies[spring.body].edge();
+            if spring.distance < 0.99 * least {
+                first.get_or_insert((spring.body, [spring.distance, least]));
+            }
+        });
+        first
     }
 
     /// What must outlast a restart.
     pub(super) fn memory(&self, contacts: &Contacts, particles: usize) -> Memory {
+        let places = PLACES * particles;
         let mut memory = Memory {
-            stand: vec![0.0; particles],
-            distance: vec![0.0; particles],
-            face: vec![u64::MAX; 2 * particles],
+            stand: vec![0.0; places],
+            distance: vec![0.0; places],
+            area: vec![0.0; places],
+            face: vec![u64::MAX; 2 * places],
         };
-        for (member, &stand) in self.stand.iter().enumerate() {
-            memory.stand[contacts.member(member).particle] = stand;
-        }
         for spring in &self.springs {
+            let first = contacts.member(spring.slot / PLACES).particle;
+            let at = PLACES * first + spring.slot % PLACES;
             let [a, b, c, d] = spring.face.nodes.map(|node| node as u64);
-            memory.distance[spring.particle] = spring.distance;
-            memory.face[2 * spring.particle] = a << 32 | b;
-            memory.face[2 * spring.particle + 1] = c << 32 | d;
+            memory.stand[at] = spring.stand;
+            memory.distance[at] = spring.distance;
+            memory.area[at] = spring.area;
+            memory.face[2 * at] = a << 32 | b;
+            memory.face[2 * at + 1] = c << 32 | d;
         }
         memory
     }
 
     /// Takes it back.
     pub(super) fn recall(&mut self, mesh: &Mesh, contacts: &Contacts, memory: &Memory) {
-        self.stand.clear();
         self.springs.clear();
-        for member in 0..contacts.members() {
-            let one = contacts.member(member);
-            let (i, stand) = (one.particle, memory.stand[one.particle]);
-            self.stand.push(stand);
-            let [low, high] = [memory.face[2 * i], memory.face[2 * i + 1]];
-            if low != u64::MAX {
-                let nodes = [low >> 32, low & HALF, high >> 32, high & HALF];
-                let nodes = nodes.map(|node| node as usize);
-                let other = mesh.place(nodes[0]).0;
-                let mut spring = Spring::new(mesh, (member, &one), other, Face { nodes });
-                (spring.stand, spring.distance) = (stand, memory.distance[i]);
-                self.springs.push(spring);
+        for slot in 0..PLACES * contacts.members() {
+            let one = contacts.member(slot / PLACES);
+            let at = PLACES * one.particle + slot % PLACES;
+            let [low, high] = [memory.face[2 * at], memory.face[2 * at + 1]];
+            if low == u64::MAX {
+                continue;
             }
+            let nodes = [low >> 32, low & HALF, high >> 32, high & HALF];
+            let face = Face { nodes: nodes.map(|node| node as usize) };
+            let to = (face, mesh.place(face.nodes[0]).0);
+            let mut spring = match (slot % PLACES).checked_sub(1) {
+                None => Spring::new(mesh, slot, (&[one.particle], one.body), to),
+                Some(axis) => {
+                    let own = face_across(&mesh.bodies[one.body], one.place, axis);
+                    Spring::new(mesh, slot, (&own.nodes, one.body), to)
+                }
+            };
+            (spring.stand, spring.distance) = (memory.stand[at], memory.distance[at]);
+            spring.area = memory.area[at];
+            self.springs.push(spring);
         }
     }
 
@@ -274,27 +332,32 @@ impl Surfaces {
             let soon = spring.stand + approach * body.edge() / body.solid.sound;
             if spring.distance < soon {
                 let stiffness = spring.area * spring.stiffness * Law::stiffness(z.min(1.0));
-                rate = rate.max((stiffness * inertia).sqrt() / spring.stand);
+                rate = rate.max((spring.crowd * stiffness * inertia).sqrt() / spring.stand);
             }
             if z >= 1.0 {
                 continue;
             }
             spring.force = spring.area * spring.stiffness * Law::force(z) / spring.stand;
             if approach > 0.0 {
-                let (impedance, sound) = resistance(mesh, derived, spring);
+                let (impedance, sound) = resistance(derived, spring);
                 let bodies = [spring.body, spring.other].map(|b| &mesh.bodies[b]);
                 let slope = 0.5 * (bodies[0].slope + bodies[1].slope);
                 let coefficient = impedance * steepness(method, approach, sound, slope);
                 spring.drag = coefficient * approach;
-                rate = rate.max(DAMPING * coefficient * inertia);
+                rate = rate.max(DAMPING * spring.crowd * coefficient * inertia);
             }
             let force = spring.force + spring.drag;
-            for (i, share) in spring.shares() {
-                sums.fx[i] += share * force * spring.way[0];
-                sums.fy[i] += share * force * spring.way[1];
-                sums.fz[i] += share * force * spring.way[2];
+            let mut add = |i: usize, scale: f64, way: [f64; 3]| {
+                sums.fx[i] += scale * way[0];
+                sums.fy[i] += scale * way[1];
+                sums.fz[i] += scale * way[2];
                 touched[i] = true;
                 active[mesh.piece_of(i)] = true;
+            };
+            spring.shares().for_each(|(i, share)| add(i, share * force, spring.way));
+            let tension = spring.tension();
+            for pull in spring.own_pulls(&self.pulls) {
+                add(pull.node, -tension, pull.slope);
             }
         }
         [rate, heat]
@@ -309,18 +372,15 @@ impl Surfaces {
         mut give: impl FnMut(usize, f64),
     ) -> f64 {
         std::mem::swap(&mut self.springs, &mut self.before);
-        self.look(mesh, contacts);
+        self.look(mesh, contacts, |_| {});
         let mut heat = 0.0;
         let mut new = self.springs.iter_mut().peekable();
-        let mut begin = |spring: &mut Spring| {
-            spring.stand = spring.stand.min(spring.distance);
-            self.stand[spring.member] = spring.stand;
-        };
+        let begin = |spring: &mut Spring| spring.stand = spring.stand.min(spring.distance);
         for old in &mut self.before {
-            while let Some(spring) = new.next_if(|spring| spring.member < old.member) {
+            while let Some(spring) = new.next_if(|spring| spring.slot < old.slot) {
                 begin(spring);
             }
-            let same = new.next_if(|spring| spring.member == old.member);
+            let same = new.next_if(|spring| spring.slot == old.slot);
             let pressed = old.distance < old.stand;
             let known = old.see(contacts);
             if let Some(spring) = same {
@@ -343,9 +403,9 @@ impl Surfaces {
     #[must_use]
     pub fn bytes(&self) -> usize {
         let springs = self.springs.capacity() + self.before.capacity();
-        self.stand.capacity() * 8
-            + self.nearest.capacity() * 16
+        self.nearest.capacity() * 16
             + springs * std::mem::size_of::<Spring>()
+            + self.pulls.capacity() * std::mem::size_of::<Pull>()
     }
 
     /// Viscous heat over the mean velocity of the step. Returns the work on the springs.
@@ -360,6 +420,9 @@ impl Surfaces {
         for spring in self.springs.iter().filter(|spring| spring.force > 0.0) {
             let way = dt * spring.approach(mesh, &mean);
             work += way * spring.force;
+            let pulls = spring.own_pulls(&self.pulls).iter();
+            let growth: f64 = pulls.map(|pull| dot(pull.slope, mean(pull.node))).sum();
+            work += dt * growth * spring.tension();
             for (i, share) in spring.shares() {
                 heat[i] += 0.5 * share.abs() * spring.drag * way;
             }
@@ -371,7 +434,8 @@ impl Surfaces {
     pub fn stored(&self, mesh: &Mesh, contacts: &Contacts) -> Vec<f64> {
         let mut all = vec![0.0; mesh.bodies.len()];
         let mut now = self.clone();
-        now.look(mesh, contacts);
+        now.before.clone_from(&self.springs);
+        now.look(mesh, contacts, |_| {});
         for spring in &now.springs {
             all[spring.body] += 0.5 * spring.energy();
             all[spring.other] += 0.5 * spring.energy();
@@ -388,13 +452,62 @@ impl Surfaces {
         self.renew((mesh, contacts), |i, energy| u[i] += energy / mesh.mass[i])
     }
 
-    /// Finds the springs at the present positions.
-    fn look(&mut self, mesh: &Mesh, contacts: &Contacts) {
+    /// Finds the springs at the present positions, and tells of those that are too short to be one.
+    fn look(&mut self, mesh: &Mesh, contacts: &Contacts, mut short: impl FnMut(&Spring)) {
         self.springs.clear();
+        self.pulls.clear();
         if !self.some {
             return;
         }
-        self.stand.resize(contacts.members(), 0.0);
+        self.find_nearest(mesh, contacts);
+        let Self { nearest, springs, before, pulls, .. } = self;
+        let mut look = |slot: usize, own: &[usize], own_face: Option<Face>, node: u32| {
+            let body = contacts.member(slot / PLACES).body;
+            let node = contacts.member(node as usize);
+            let from = (slot, own, body);
+            let Some(mut spring) = nearest_face((mesh, contacts), from, &node) else { return };
+            let full = full_stand(mesh, [body, node.body]);
+            let old = before.binary_search_by_key(&slot, |old| old.slot);
+            let stand = old.map_or(0.0, |at| before[at].stand);
+            spring.stand = if stand < CLOSE * full {
+                spring.distance.min(full)
+            } else {
+                stand.max(spring.distance).min(full)
+            };
+            let faces = spring.measure((mesh, contacts), own_face, pulls);
+            if !faces {
+            } else if spring.stand < CLOSE * full {
+                short(&spring);
+            } else {
+                springs.push(spring);
+            }
+        };
+        for (member, &(_, node)) in nearest.iter().enumerate().filter(|(_, near)| near.1 != NONE) {
+            let one = contacts.member(member);
+            look(PLACES * member, &[one.particle], None, node);
+            if !mesh.held(one.particle) {
+                continue;
+            }
+            each_face(mesh, one.body, one.place, |face, side| {
+                let corners = face.nodes.map(|node| contacts.find(node));
+                // Of the corners in front of something the first looks after the face.
+                let known = |corner: &Option<usize>| corner.filter(|&c| nearest[c].1 != NONE);
+                let mut ahead = corners.iter().filter_map(known);
+                if ahead.next() != Some(member) {
+                    return;
+                }
+                let Some(first) = corners[0] else { return };
+                let closer = |a: &usize, b: &usize| nearest[*a].0.total_cmp(&nearest[*b].0);
+                let nearest_corner = ahead.chain([member]).min_by(closer).unwrap_or(member);
+                let slot = PLACES * first + 1 + side / 2;
+                look(slot, &face.nodes, Some(face), nearest[nearest_corner].1);
+            });
+        }
+        springs.sort_unstable_by_key(|spring| spring.slot);
+    }
+
+    /// Finds the nearest node of another body's live surface to every member.
+    fn find_nearest(&mut self, mesh: &Mesh, contacts: &Contacts) {
         self.nearest.clear();
         self.nearest.resize(contacts.members(), (f64::INFINITY, NONE));
         for &[a, b] in contacts.list() {
@@ -410,28 +523,6 @@ impl Surfaces {
                 }
             }
         }
-        for member in 0..self.nearest.len() {
-            let node = self.nearest[member].1;
-            if node == NONE {
-                self.stand[member] = 0.0;
-                continue;
-            }
-            let (one, node) = (contacts.member(member), contacts.member(node as usize));
-            let Some(mut spring) = nearest_face((mesh, contacts), member, &one, &node) else {
-                continue;
-            };
-            let full = full_stand(mesh, [one.body, node.body]);
-            let stand = &mut self.stand[member];
-            *stand = if *stand < CLOSE * full {
-                spring.distance.min(full)
-            } else {
-                stand.max(spring.distance).min(full)
-            };
-            if *stand >= CLOSE * full {
-                spring.stand = *stand;
-                self.springs.push(spring);
-            }
-        }
     }
 }
 
@@ -440,32 +531,27 @@ fn full_stand(mesh: &Mesh, bodies: [usize; 2]) -> f64 {
     0.5 * STAND * (mesh.bodies[bodies[0]].edge() + mesh.bodies[bodies[1]].edge())
 }
 
-/// Impedance times area, and sound speed: means of the particle and the surface. A particle stands for
-/// as much of a flat surface as its volume over half a cell's edge.
-fn resistance(mesh: &Mesh, derived: &Derived, spring: &Spring) -> (f64, f64) {
-    let of = |i: usize, body: usize| {
-        let area = mesh.mass[i] / (0.5 * mesh.bodies[body].edge());
-        (area * derived.sound[i], derived.sound[i])
-    };
-    let (mut impedance, mut sound) = of(spring.particle, spring.body);
-    for (&j, share) in spring.face.nodes.iter().zip(spring.share) {
-        let (z, c) = of(j, spring.other);
-        impedance += share * z;
-        sound += share * c;
+/// Impedance times area, and sound speed: means of the point and the surface. Each of the two surfaces
+/// stands for half of the area.
+fn resistance(derived: &Derived, spring: &Spring) -> (f64, f64) {
+    let (mut impedance, mut sound) = (0.0, 0.0);
+    for (i, share) in spring.shares() {
+        let share = 0.5 * share.abs();
+        impedance += share * derived.rho[i] * derived.sound[i];
+        sound += share * derived.sound[i];
     }
-    (0.5 * impedance, 0.5 * sound)
+    (0.5 * spring.area * impedance, sound)
 }
 
 /// The spring on the nearest of the faces round a node.
 fn nearest_face(
     (mesh, contacts): (&Mesh, &Contacts),
-    member: usize,
-    one: &Member,
+    (slot, own, body): (usize, &[usize], usize),
     node: &Member,
 ) -> Option<Spring> {
     let mut best: Option<Spring> = None;
-    each_face(mesh, node.body, node.place, |face| {
-        let mut spring = Spring::new(mesh, (member, one), node.body, face);
+    each_face(mesh, node.body, node.place, |face, _| {
+        let mut spring = Spring::new(mesh, slot, (own, body), (face, node.body));
         if spring.see(contacts) && best.as_ref().is_none_or(|best| spring.distance < best.distance)
         {
             best = Some(spring);
@@ -474,8 +560,9 @@ fn nearest_face(
     best.filter(|spring| spring.distance > 0.0)
 }
 
-/// Calls for every face of the live surface of a body round a node.
-fn each_face(mesh: &Mesh, body: usize, at: [i16; 3], mut f: impl FnMut(Face)) {
+/// Calls for every face of the live surface of a body round a node, with the side of its element: twice
+/// the axis that it lies across, and one more if it is the upper one.
+fn each_face(mesh: &Mesh, body: usize, at: [i16; 3], mut f: impl FnMut(Face, usize)) {
     let own = &mesh.bodies[body];
     let live = |at: [i16; 3]| {
         let cell = own.lattice.cell(at);
@@ -493,24 +580,111 @@ fn each_face(mesh: &Mesh, body: usize, at: [i16; 3], mut f: impl FnMut(Face)) {
             if live(beyond) {
                 continue;
             }
-            let nodes = [[-1, -1], [1, -1], [1, 1], [-1, 1]].map(|step: [i16; 2]| {
-                let mut node = centre;
-                node[axis] -= side[axis];
-                node[(axis + 1) % 3] += step[0];
-                node[(axis + 2) % 3] += step[1];
-                own.nodes.start + own.lattice.node(node) as usize
-            });
-            f(Face { nodes });
+            let mut lowest = centre.map(|c| c - 1);
+            lowest[axis] = at[axis];
+            f(face_across(own, lowest, axis), 2 * axis + usize::from(side[axis] < 0));
         }
     }
 }
 
+/// The face across an axis with this node as its lowest corner.
+fn face_across(body: &Body, lowest: [i16; 3], axis: usize) -> Face {
+    let nodes = [[0, 0], [2, 0], [2, 2], [0, 2]].map(|step: [i16; 2]| {
+        let mut node = lowest;
+        node[(axis + 1) % 3] += step[0];
+        node[(axis + 2) % 3] += step[1];
+        body.nodes.start + body.lattice.node(node) as usize
+    });
+    Face { nodes }
+}
+
 impl Spring {
+    /// Finds the area that the point acts for, and if it is pressed its changes: from the middle of a
+    /// face that face, from a held particle those round it that face the other body most. Returns
+    /// whether the point faces it.
+    fn measure(
+        &mut self,
+        (mesh, contacts): (&Mesh, &Contacts),
+        face: Option<Face>,
+        pulls: &mut Vec<Pull>,
+    ) -> bool {
+        self.pulls = [pulls.len() as u32; 2];
+        if let Some(face) = face {
+            let Some([a, b, c, d]) = corners_of(contacts, &face) else { return false };
+            let (e, g) = (minus(c, a), minus(d, b));
+            let scale = 0.5 * (1.0 - CORNERS);
+            let unit = self.spread(cross(e, g).map(|x| scale * x), 1.0 / CORNERS);
+            let (to_c, to_d) = (cross(g, unit), cross(unit, e));
+            if self.distance < self.stand {
+                let corners =
+                    [(0, to_c, -scale), (1, to_d, -scale), (2, to_c, scale), (3, to_d, scale)];
+                pulls.extend(corners.map(|(k, slope, scale)| Pull {
+                    node: face.nodes[k],
+                    slope: slope.map(|x| scale * x),
+                }));
+                self.pulls[1] = pulls.len() as u32;
+            }
+            return dot(unit, self.way).abs() > FACING;
+        }
+        let own = self.own[0];
+        if !mesh.held(own) {
+            return true;
+        }
+        let place = mesh.place(own).1;
+        let round = |face: &Face| {
+            let at = face.nodes.iter().position(|&node| node == own)?;
+            let nodes = [1, 3].map(|k| face.nodes[(at + k) % 4]);
+            let x = contacts.member(contacts.find(own)?).position;
+            let [b, d] = nodes.map(|node| contacts.find(node));
+            let edge = |at: usize| minus(contacts.member(at).position, x);
+            Some((nodes, edge(b?), edge(d?)))
+        };
+        let scale = 0.25 * CORNERS;
+        let mut areas = [[0.0; 3]; 6];
+        each_face(mesh, self.body, place, |face, side| {
+            if let Some((_, b, d)) = round(&face) {
+                areas[side].iter_mut().zip(cross(b, d)).for_each(|(sum, x)| *sum += scale * x);
+            }
+        });
+        let outwards = |side: usize| if side & 1 == 1 { 1.0 } else { -1.0 };
+        let faces = |&side: &usize| -outwards(side) * dot(areas[side], self.way);
+        let Some(side) = (0..6).max_by(|a, b| faces(a).total_cmp(&faces(b))) else { return true };
+        let unit = self.spread(areas[side], 1.0 / CORNERS);
+        if self.distance < self.stand {
+            each_face(mesh, self.body, place, |face, other| {
+                let Some(([b, d], along_b, along_d)) = round(&face).filter(|_| other == side)
+                else {
+                    return;
+                };
+                let to_b = cross(along_d, unit).map(|x| scale * x);
+                let to_d = cross(unit, along_b).map(|x| scale * x);
+                let back = std::array::from_fn(|k| -(to_b[k] + to_d[k]));
+                pulls.extend(
+                    [(b, to_b), (d, to_d), (own, back)].map(|(node, slope)| Pull { node, slope }),
+                );
+            });
+            self.pulls[1] = pulls.len() as u32;
+        }
+        true
+    }
+
+    /// Sets the area from a vector; the direction of that.
+    fn spread(&mut self, area: [f64; 3], crowd: f64) -> [f64; 3] {
+        self.area = dot(area, area).sqrt();
+        self.crowd = crowd;
+        area.map(|x| x / self.area.max(f64::MIN_POSITIVE))
+    }
+
     /// Finds the nearest point of the face: four triangles about its middle. Returns whether the
     /// positions are known.
     fn see(&mut self, contacts: &Contacts) -> bool {
-        let x = contacts.member(self.member).position;
         let Some(corners) = corners_of(contacts, &self.face) else { return false };
+        let mut x = [0.0; 3];
+        for &i in &self.own[..self.ends] {
+            let Some(member) = contacts.find(i) else { return false };
+            let position = contacts.member(member).position;
+            x.iter_mut().zip(position).for_each(|(x, own)| *x += own / self.ends as f64);
+        }
         let middle = std::array::from_fn(|d| 0.25 * corners.iter().map(|c| c[d]).sum::<f64>());
         let mut least = f64::INFINITY;
         for k in 0..4 {
