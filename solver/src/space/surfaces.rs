@@ -84,6 +84,13 @@ const CORNERS: f64 = 1.0 / 3.0;
 /// Least cosine between the way of a spring and the normal of a face from whose middle it starts.
 const FACING: f64 = 0.5;
 
+/// Most rounds of the search for the nearest point of a face, and the move along its sides that ends it.
+const ROUNDS: usize = 12;
+const CLOSEST: f64 = 1e-13;
+
+/// Least curvature of the square of the distance, over that of a flat face, that the search trusts.
+const CONVEX: f64 = 0.1;
+
 /// Face of an element.
 #[derive(Debug, Clone, Copy)]
 struct Face {
@@ -675,8 +682,8 @@ impl Spring {
         area.map(|x| x / self.area.max(f64::MIN_POSITIVE))
     }
 
-    /// Finds the nearest point of the face: four triangles about its middle. Returns whether the
-    /// positions are known.
+    /// Finds the nearest point of the face, which is bilinear as the pyramid under it. Returns whether
+    /// the positions are known.
     fn see(&mut self, contacts: &Contacts) -> bool {
         let Some(corners) = corners_of(contacts, &self.face) else { return false };
         let mut x = [0.0; 3];
@@ -685,21 +692,11 @@ impl Spring {
             let position = contacts.member(member).position;
             x.iter_mut().zip(position).for_each(|(x, own)| *x += own / self.ends as f64);
         }
-        let middle = std::array::from_fn(|d| 0.25 * corners.iter().map(|c| c[d]).sum::<f64>());
-        let mut least = f64::INFINITY;
-        for k in 0..4 {
-            let next = (k + 1) % 4;
-            let (share, r) = nearest_point(x, [corners[k], corners[next], middle]);
-            let square = dot(r, r);
-            if square < least {
-                least = square;
-                self.share = [0.25 * share[2]; 4];
-                self.share[k] += share[0];
-                self.share[next] += share[1];
-                self.distance = square.sqrt();
-                self.way = r.map(|r| r / self.distance);
-            }
-        }
+        let (at, r) = nearest_point(x, corners);
+        let [low, high] = [at.map(|at| 1.0 - at), at];
+        self.share = [low[0] * low[1], high[0] * low[1], high[0] * high[1], low[0] * high[1]];
+        self.distance = dot(r, r).sqrt();
+        self.way = r.map(|r| r / self.distance);
         true
     }
 }
@@ -721,33 +718,39 @@ fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-/// Shares of the corners in the point of a triangle nearest to `x`, and the way from there to `x`.
-fn nearest_point(x: [f64; 3], corners: [[f64; 3]; 3]) -> ([f64; 3], [f64; 3]) {
-    let away = |share: [f64; 3]| {
-        let point = |d: usize| (0..3).map(|k| share[k] * corners[k][d]).sum::<f64>();
-        (share, std::array::from_fn(|d| x[d] - point(d)))
+/// Where, from 0 to 1 along both sides, a bilinear face has its point nearest to `x`, and the way from
+/// there to `x`: Newton's iteration on the square of the distance, within the face.
+fn nearest_point(x: [f64; 3], [a, b, c, d]: [[f64; 3]; 4]) -> ([f64; 2], [f64; 3]) {
+    let sides = [minus(b, a), minus(d, a)];
+    let twist = minus(minus(c, d), sides[0]);
+    let away = |at: [f64; 2]| -> [f64; 3] {
+        std::array::from_fn(|k| {
+            x[k] - (a[k] + at[0] * sides[0][k] + at[1] * (sides[1][k] + at[0] * twist[k]))
+        })
     };
-    let (e, f, r) =
-        (minus(corners[1], corners[0]), minus(corners[2], corners[0]), minus(x, corners[0]));
-    let (ee, ef, ff, re, rf) = (dot(e, e), dot(e, f), dot(f, f), dot(r, e), dot(r, f));
-    let area = ee * ff - ef * ef;
-    let (v, w) = (ff * re - ef * rf, ee * rf - ef * re);
-    if area > 0.0 && v >= 0.0 && w >= 0.0 && v + w <= area {
-        let (v, w) = (v / area, w / area);
-        return away([1.0 - v - w, v, w]);
+    let mut at = [0.5; 2];
+    for _ in 0..ROUNDS {
+        let r = away(at);
+        let along = [0, 1]
+            .map(|i| -> [f64; 3] { std::array::from_fn(|k| sides[i][k] + at[1 - i] * twist[k]) });
+        let slope = along.map(|t| dot(r, t));
+        // What would leave the face stays on its edge.
+        let free =
+            [0, 1].map(|i| !(at[i] <= 0.0 && slope[i] <= 0.0 || at[i] >= 1.0 && slope[i] >= 0.0));
+        let steep = along.map(|t| dot(t, t).max(f64::MIN_POSITIVE));
+        let mixed = dot(along[0], along[1]) - dot(r, twist);
+        let both = steep[0] * steep[1] - mixed * mixed;
+        let step = if free == [true; 2] && both > CONVEX * steep[0] * steep[1] {
+            [0, 1].map(|i| (slope[i] * steep[1 - i] - slope[1 - i] * mixed) / both)
+        } else {
+            [0, 1].map(|i| if free[i] { slope[i] / steep[i] } else { 0.0 })
+        };
+        let next = [0, 1].map(|i| (at[i] + step[i]).clamp(0.0, 1.0));
+        let moved = (next[0] - at[0]).abs() + (next[1] - at[1]).abs();
+        at = next;
+        if moved < CLOSEST {
+            break;
+        }
     }
-    let edge = |a: usize, b: usize| {
-        let along = minus(corners[b], corners[a]);
-        let length = dot(along, along);
-        let t = dot(minus(x, corners[a]), along) / length.max(f64::MIN_POSITIVE);
-        let t = t.clamp(0.0, 1.0);
-        let mut share = [0.0; 3];
-        share[a] = 1.0 - t;
-        share[b] = t;
-        away(share)
-    };
-    let nearer = |a: ([f64; 3], [f64; 3]), b: ([f64; 3], [f64; 3])| {
-        if dot(b.1, b.1) < dot(a.1, a.1) { b } else { a }
-    };
-    nearer(nearer(edge(0, 1), edge(1, 2)), edge(2, 0))
+    (at, away(at))
 }
