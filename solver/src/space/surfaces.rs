@@ -73,13 +73,21 @@ impl Law {
     }
 }
 
-/// Places of springs that a member has: its own, and those of the faces across each axis of which it
-/// is the first corner.
-const PLACES: usize = 4;
+/// Places of springs that a member has: its own, and those of the points of the faces across each axis
+/// of which it is the first corner.
+const PLACES: usize = 13;
 
-/// Part of a face's area that its corners act for, all four; its middle acts for the rest. So a pressure
-/// that varies over the face does the work on each corner that it does on the bilinear face.
-const CORNERS: f64 = 1.0 / 3.0;
+/// Points of a face, from 0 to 1 along its sides: those of Gauss, two each way. A pressure then does on
+/// every corner the work that it does on the bilinear face, and no point starts on an edge of the
+/// face across (decision 0016).
+const POINTS: [[f64; 2]; 4] = {
+    // (1 - 1/sqrt(3)) / 2
+    let (low, high) = (0.211_324_865_405_187_12, 0.788_675_134_594_812_9);
+    [[low, low], [high, low], [high, high], [low, high]]
+};
+
+/// Area that pushes a corner of flat faces, over the sum of squares of its shares in their points.
+const CROWD: f64 = 9.0;
 
 /// Least cosine between the way of a spring and the normal of a face from whose middle it starts.
 const FACING: f64 = 0.5;
@@ -98,15 +106,13 @@ struct Face {
     nodes: [usize; 4],
 }
 
-/// A point of a body in front of a surface, in touch with it or not: a particle, or the middle of a face.
+/// A point of a body in front of a surface, in touch with it or not: a loose particle, or one of a face.
 #[derive(Debug, Clone, Copy)]
 struct Spring {
     /// Its place among those of all members.
     slot: usize,
-    /// The particles that it is the mean of.
-    own: [usize; 4],
-    /// How many they are.
-    ends: usize,
+    /// The particles that it is a mean of, and their shares.
+    own: [(usize, f64); 4],
     body: usize,
     /// Body of the surface.
     other: usize,
@@ -140,23 +146,16 @@ struct Pull {
 }
 
 impl Spring {
-    /// From some particles of a body to a face of another one, to be seen yet.
-    fn new(
-        mesh: &Mesh,
-        slot: usize,
-        (own, body): (&[usize], usize),
-        (face, other): (Face, usize),
-    ) -> Self {
-        let first = &mesh.bodies[body];
+    /// From a place of a body's surface to a face of another one, to be seen yet.
+    fn new(mesh: &Mesh, slot: usize, from: &Place, to: (Face, usize)) -> Self {
+        let (face, other) = to;
+        let first = &mesh.bodies[from.body];
         let soft = |body: &Body| 1.0 / (body.rho_0 * body.solid.sound.powi(2));
         let series = 1.0 / (soft(first) + soft(&mesh.bodies[other]));
-        let mut all = [own[0]; 4];
-        all[..own.len()].copy_from_slice(own);
         Self {
             slot,
-            own: all,
-            ends: own.len(),
-            body,
+            own: from.own(),
+            body: from.body,
             other,
             face,
             share: [0.0; 4],
@@ -164,7 +163,7 @@ impl Spring {
             distance: f64::INFINITY,
             stand: 0.0,
             // A loose particle acts for what one of its mass has of a flat surface.
-            area: 4.0 * mesh.mass[own[0]] / (first.rho_0 * first.edge()),
+            area: 4.0 * mesh.mass[from.nodes[0]] / (first.rho_0 * first.edge()),
             crowd: 1.0,
             pulls: [0; 2],
             stiffness: STIFFNESS * first.edge() * series,
@@ -198,8 +197,7 @@ impl Spring {
 
     /// Particles that take part, with their shares of the force.
     fn shares(&self) -> impl Iterator<Item = (usize, f64)> {
-        let part = 1.0 / self.ends as f64;
-        let own = self.own.into_iter().take(self.ends).map(move |i| (i, part));
+        let own = self.own.into_iter().filter(|own| own.1 > 0.0);
         own.chain(self.face.nodes.into_iter().zip(self.share.map(|share| -share)))
     }
 }
@@ -207,15 +205,51 @@ impl Spring {
 /// Lower half of a number.
 const HALF: u64 = 0xffff_ffff;
 
-/// What surfaces keep from step to step, of the [`PLACES`] of every particle.
+/// Where a spring starts: a particle, or a point of a face.
+#[derive(Debug, Clone, Copy)]
+struct Place {
+    body: usize,
+    /// Corners of the face, or the particle.
+    nodes: [usize; 4],
+    /// Which of the points; none is the particle.
+    point: Option<usize>,
+}
+
+impl Place {
+    /// Of a member, by the number among its places.
+    fn of(mesh: &Mesh, one: &Member, place: usize) -> Self {
+        let body = one.body;
+        match place.checked_sub(1) {
+            None => Self { body, nodes: [one.particle; 4], point: None },
+            Some(at) => {
+                let face = face_across(&mesh.bodies[body], one.place, at / POINTS.len());
+                Self { body, nodes: face.nodes, point: Some(at % POINTS.len()) }
+            }
+        }
+    }
+
+    fn own(&self) -> [(usize, f64); 4] {
+        let share = self.point.map_or([1.0, 0.0, 0.0, 0.0], |point| bilinear(POINTS[point]));
+        std::array::from_fn(|k| (self.nodes[k], share[k]))
+    }
+}
+
+/// Shares of the corners of a face in a point of it.
+fn bilinear([u, v]: [f64; 2]) -> [f64; 4] {
+    [(1.0 - u) * (1.0 - v), u * (1.0 - v), u * v, (1.0 - u) * v]
+}
+
+/// What surfaces keep from step to step, spring by spring.
 pub(super) struct Memory {
+    /// The particle that has it times the places of each, and its place among them; ascending.
+    pub(super) slot: Vec<u64>,
     /// Distance at which the point feels a surface.
     pub(super) stand: Vec<f64>,
     /// Distance of the surface when it was last looked at.
     pub(super) distance: Vec<f64>,
     /// Area that the point acted for.
     pub(super) area: Vec<f64>,
-    /// Corners of the face, two in a number, two numbers a place; all bits set for none.
+    /// Corners of the face, two in a number, two numbers a spring.
     pub(super) face: Vec<u64>,
 }
 
@@ -265,51 +299,42 @@ impl Surfaces {
     }
 
     /// What must outlast a restart.
-    pub(super) fn memory(&self, contacts: &Contacts, particles: usize) -> Memory {
-        let places = PLACES * particles;
-        let mut memory = Memory {
-            stand: vec![0.0; places],
-            distance: vec![0.0; places],
-            area: vec![0.0; places],
-            face: vec![u64::MAX; 2 * places],
-        };
-        for spring in &self.springs {
+    pub(super) fn memory(&self, contacts: &Contacts) -> Memory {
+        let of = |f: fn(&Spring) -> f64| self.springs.iter().map(f).collect();
+        let slot = |spring: &Spring| {
             let first = contacts.member(spring.slot / PLACES).particle;
-            let at = PLACES * first + spring.slot % PLACES;
+            (PLACES * first + spring.slot % PLACES) as u64
+        };
+        let face = |spring: &Spring| {
             let [a, b, c, d] = spring.face.nodes.map(|node| node as u64);
-            memory.stand[at] = spring.stand;
-            memory.distance[at] = spring.distance;
-            memory.area[at] = spring.area;
-            memory.face[2 * at] = a << 32 | b;
-            memory.face[2 * at + 1] = c << 32 | d;
+            [a << 32 | b, c << 32 | d]
+        };
+        Memory {
+            slot: self.springs.iter().map(slot).collect(),
+            stand: of(|spring| spring.stand),
+            distance: of(|spring| spring.distance),
+            area: of(|spring| spring.area),
+            face: self.springs.iter().flat_map(face).collect(),
         }
-        memory
     }
 
     /// Takes it back.
     pub(super) fn recall(&mut self, mesh: &Mesh, contacts: &Contacts, memory: &Memory) {
         self.springs.clear();
-        for slot in 0..PLACES * contacts.members() {
-            let one = contacts.member(slot / PLACES);
-            let at = PLACES * one.particle + slot % PLACES;
-            let [low, high] = [memory.face[2 * at], memory.face[2 * at + 1]];
-            if low == u64::MAX {
-                continue;
-            }
+        for (at, (&slot, pair)) in memory.slot.iter().zip(memory.face.as_chunks().0).enumerate() {
+            let [low, high]: [u64; 2] = *pair;
+            let (particle, place) = (slot as usize / PLACES, slot as usize % PLACES);
+            let Some(member) = contacts.find(particle) else { continue };
+            let from = Place::of(mesh, &contacts.member(member), place);
             let nodes = [low >> 32, low & HALF, high >> 32, high & HALF];
             let face = Face { nodes: nodes.map(|node| node as usize) };
             let to = (face, mesh.place(face.nodes[0]).0);
-            let mut spring = match (slot % PLACES).checked_sub(1) {
-                None => Spring::new(mesh, slot, (&[one.particle], one.body), to),
-                Some(axis) => {
-                    let own = face_across(&mesh.bodies[one.body], one.place, axis);
-                    Spring::new(mesh, slot, (&own.nodes, one.body), to)
-                }
-            };
+            let mut spring = Spring::new(mesh, PLACES * member + place, &from, to);
             (spring.stand, spring.distance) = (memory.stand[at], memory.distance[at]);
             spring.area = memory.area[at];
             self.springs.push(spring);
         }
+        self.springs.sort_unstable_by_key(|spring| spring.slot);
     }
 
     /// Forces on particles and surfaces, and the marks of touched particles. Returns the inverse of
@@ -468,12 +493,12 @@ impl Surfaces {
         }
         self.find_nearest(mesh, contacts);
         let Self { nearest, springs, before, pulls, .. } = self;
-        let mut look = |slot: usize, own: &[usize], own_face: Option<Face>, node: u32| {
-            let body = contacts.member(slot / PLACES).body;
+        let mut look = |slot: usize, from: &Place, node: u32| {
             let node = contacts.member(node as usize);
-            let from = (slot, own, body);
-            let Some(mut spring) = nearest_face((mesh, contacts), from, &node) else { return };
-            let full = full_stand(mesh, [body, node.body]);
+            let Some(mut spring) = nearest_face((mesh, contacts), (slot, from), &node) else {
+                return;
+            };
+            let full = full_stand(mesh, [from.body, node.body]);
             let old = before.binary_search_by_key(&slot, |old| old.slot);
             let stand = old.map_or(0.0, |at| before[at].stand);
             spring.stand = if stand < CLOSE * full {
@@ -481,9 +506,10 @@ impl Surfaces {
             } else {
                 stand.max(spring.distance).min(full)
             };
-            let faces = spring.measure((mesh, contacts), own_face, pulls);
-            if !faces {
-            } else if spring.stand < CLOSE * full {
+            if !spring.measure(contacts, from, pulls) {
+                return;
+            }
+            if spring.stand < CLOSE * full {
                 short(&spring);
             } else {
                 springs.push(spring);
@@ -491,23 +517,23 @@ impl Surfaces {
         };
         for (member, &(_, node)) in nearest.iter().enumerate().filter(|(_, near)| near.1 != NONE) {
             let one = contacts.member(member);
-            look(PLACES * member, &[one.particle], None, node);
             if !mesh.held(one.particle) {
+                look(PLACES * member, &Place::of(mesh, &one, 0), node);
                 continue;
             }
             each_face(mesh, one.body, one.place, |face, side| {
                 let corners = face.nodes.map(|node| contacts.find(node));
                 // Of the corners in front of something the first looks after the face.
-                let known = |corner: &Option<usize>| corner.filter(|&c| nearest[c].1 != NONE);
-                let mut ahead = corners.iter().filter_map(known);
-                if ahead.next() != Some(member) {
+                let ahead = |corner: Option<usize>| corner.filter(|&c| nearest[c].1 != NONE);
+                if corners.iter().find_map(|&corner| ahead(corner)) != Some(member) {
                     return;
                 }
                 let Some(first) = corners[0] else { return };
-                let closer = |a: &usize, b: &usize| nearest[*a].0.total_cmp(&nearest[*b].0);
-                let nearest_corner = ahead.chain([member]).min_by(closer).unwrap_or(member);
-                let slot = PLACES * first + 1 + side / 2;
-                look(slot, &face.nodes, Some(face), nearest[nearest_corner].1);
+                for (point, &corner) in corners.iter().enumerate() {
+                    let from = Place { body: one.body, nodes: face.nodes, point: Some(point) };
+                    let slot = PLACES * first + 1 + POINTS.len() * (side / 2) + point;
+                    look(slot, &from, ahead(corner).map_or(node, |corner| nearest[corner].1));
+                }
             });
         }
         springs.sort_unstable_by_key(|spring| spring.slot);
@@ -553,12 +579,12 @@ fn resistance(derived: &Derived, spring: &Spring) -> (f64, f64) {
 /// The spring on the nearest of the faces round a node.
 fn nearest_face(
     (mesh, contacts): (&Mesh, &Contacts),
-    (slot, own, body): (usize, &[usize], usize),
+    (slot, from): (usize, &Place),
     node: &Member,
 ) -> Option<Spring> {
     let mut best: Option<Spring> = None;
     each_face(mesh, node.body, node.place, |face, _| {
-        let mut spring = Spring::new(mesh, slot, (own, body), (face, node.body));
+        let mut spring = Spring::new(mesh, slot, from, (face, node.body));
         if spring.see(contacts) && best.as_ref().is_none_or(|best| spring.distance < best.distance)
         {
             best = Some(spring);
@@ -606,80 +632,35 @@ fn face_across(body: &Body, lowest: [i16; 3], axis: usize) -> Face {
 }
 
 impl Spring {
-    /// Finds the area that the point acts for, and if it is pressed its changes: from the middle of a
-    /// face that face, from a held particle those round it that face the other body most. Returns
-    /// whether the point faces it.
-    fn measure(
-        &mut self,
-        (mesh, contacts): (&Mesh, &Contacts),
-        face: Option<Face>,
-        pulls: &mut Vec<Pull>,
-    ) -> bool {
+    /// Finds the area that a point of a face acts for and, if it is pressed, how that changes. Returns
+    /// whether the point faces the other body.
+    fn measure(&mut self, contacts: &Contacts, from: &Place, pulls: &mut Vec<Pull>) -> bool {
         self.pulls = [pulls.len() as u32; 2];
-        if let Some(face) = face {
-            let Some([a, b, c, d]) = corners_of(contacts, &face) else { return false };
-            let (e, g) = (minus(c, a), minus(d, b));
-            let scale = 0.5 * (1.0 - CORNERS);
-            let unit = self.spread(cross(e, g).map(|x| scale * x), 1.0 / CORNERS);
-            let (to_c, to_d) = (cross(g, unit), cross(unit, e));
-            if self.distance < self.stand {
-                let corners =
-                    [(0, to_c, -scale), (1, to_d, -scale), (2, to_c, scale), (3, to_d, scale)];
-                pulls.extend(corners.map(|(k, slope, scale)| Pull {
-                    node: face.nodes[k],
-                    slope: slope.map(|x| scale * x),
-                }));
-                self.pulls[1] = pulls.len() as u32;
-            }
-            return dot(unit, self.way).abs() > FACING;
-        }
-        let own = self.own[0];
-        if !mesh.held(own) {
-            return true;
-        }
-        let place = mesh.place(own).1;
-        let round = |face: &Face| {
-            let at = face.nodes.iter().position(|&node| node == own)?;
-            let nodes = [1, 3].map(|k| face.nodes[(at + k) % 4]);
-            let x = contacts.member(contacts.find(own)?).position;
-            let [b, d] = nodes.map(|node| contacts.find(node));
-            let edge = |at: usize| minus(contacts.member(at).position, x);
-            Some((nodes, edge(b?), edge(d?)))
+        let Some(point) = from.point else { return true };
+        let Some([a, b, c, d]) = corners_of(contacts, &Face { nodes: from.nodes }) else {
+            return false;
         };
-        let scale = 0.25 * CORNERS;
-        let mut areas = [[0.0; 3]; 6];
-        each_face(mesh, self.body, place, |face, side| {
-            if let Some((_, b, d)) = round(&face) {
-                areas[side].iter_mut().zip(cross(b, d)).for_each(|(sum, x)| *sum += scale * x);
-            }
-        });
-        let outwards = |side: usize| if side & 1 == 1 { 1.0 } else { -1.0 };
-        let faces = |&side: &usize| -outwards(side) * dot(areas[side], self.way);
-        let Some(side) = (0..6).max_by(|a, b| faces(a).total_cmp(&faces(b))) else { return true };
-        let unit = self.spread(areas[side], 1.0 / CORNERS);
+        let [u, v] = POINTS[point];
+        let between = |x: [f64; 3], y: [f64; 3], t: f64| -> [f64; 3] {
+            std::array::from_fn(|k| x[k] + t * (y[k] - x[k]))
+        };
+        let sides = [between(minus(b, a), minus(c, d), v), between(minus(d, a), minus(c, b), u)];
+        let part = 1.0 / POINTS.len() as f64;
+        let area = cross(sides[0], sides[1]).map(|x| part * x);
+        self.area = dot(area, area).sqrt();
+        self.crowd = CROWD;
+        let unit = area.map(|x| x / self.area.max(f64::MIN_POSITIVE));
         if self.distance < self.stand {
-            each_face(mesh, self.body, place, |face, other| {
-                let Some(([b, d], along_b, along_d)) = round(&face).filter(|_| other == side)
-                else {
-                    return;
-                };
-                let to_b = cross(along_d, unit).map(|x| scale * x);
-                let to_d = cross(unit, along_b).map(|x| scale * x);
-                let back = std::array::from_fn(|k| -(to_b[k] + to_d[k]));
-                pulls.extend(
-                    [(b, to_b), (d, to_d), (own, back)].map(|(node, slope)| Pull { node, slope }),
-                );
-            });
+            let along = [cross(sides[1], unit), cross(unit, sides[0])];
+            // Derivatives of the shares along both sides.
+            let slopes = [[v - 1.0, u - 1.0], [1.0 - v, -u], [v, u], [-v, 1.0 - u]];
+            pulls.extend(from.nodes.into_iter().zip(slopes).map(|(node, by)| Pull {
+                node,
+                slope: std::array::from_fn(|k| part * (by[0] * along[0][k] + by[1] * along[1][k])),
+            }));
             self.pulls[1] = pulls.len() as u32;
         }
-        true
-    }
-
-    /// Sets the area from a vector; the direction of that.
-    fn spread(&mut self, area: [f64; 3], crowd: f64) -> [f64; 3] {
-        self.area = dot(area, area).sqrt();
-        self.crowd = crowd;
-        area.map(|x| x / self.area.max(f64::MIN_POSITIVE))
+        dot(unit, self.way).abs() > FACING
     }
 
     /// Finds the nearest point of the face, which is bilinear as the pyramid under it. Returns whether
@@ -687,14 +668,13 @@ impl Spring {
     fn see(&mut self, contacts: &Contacts) -> bool {
         let Some(corners) = corners_of(contacts, &self.face) else { return false };
         let mut x = [0.0; 3];
-        for &i in &self.own[..self.ends] {
+        for (i, share) in self.own.into_iter().filter(|own| own.1 > 0.0) {
             let Some(member) = contacts.find(i) else { return false };
             let position = contacts.member(member).position;
-            x.iter_mut().zip(position).for_each(|(x, own)| *x += own / self.ends as f64);
+            x.iter_mut().zip(position).for_each(|(x, own)| *x += share * own);
         }
         let (at, r) = nearest_point(x, corners);
-        let [low, high] = [at.map(|at| 1.0 - at), at];
-        self.share = [low[0] * low[1], high[0] * low[1], high[0] * high[1], low[0] * high[1]];
+        self.share = bilinear(at);
         self.distance = dot(r, r).sqrt();
         self.way = r.map(|r| r / self.distance);
         true
