@@ -86,9 +86,6 @@ const POINTS: [[f64; 2]; 4] = {
     [[low, low], [high, low], [high, high], [low, high]]
 };
 
-/// Area that pushes a corner of flat faces, over the sum of squares of its shares in their points.
-const CROWD: f64 = 9.0;
-
 /// Least cosine between the way of a spring and the normal of a face from whose middle it starts.
 const FACING: f64 = 0.5;
 
@@ -126,8 +123,6 @@ struct Spring {
     stand: f64,
     /// Area that the point acts for.
     area: f64,
-    /// Area that acts on its particles over that.
-    crowd: f64,
     /// Its pulls, among those of all springs.
     pulls: [u32; 2],
     /// Stiffness, an energy over area.
@@ -164,7 +159,6 @@ impl Spring {
             stand: 0.0,
             // A loose particle acts for what one of its mass has of a flat surface.
             area: 4.0 * mesh.mass[from.nodes[0]] / (first.rho_0 * first.edge()),
-            crowd: 1.0,
             pulls: [0; 2],
             stiffness: STIFFNESS * first.edge() * series,
             force: 0.0,
@@ -184,6 +178,17 @@ impl Spring {
     /// Its own pulls among all.
     fn own_pulls<'a>(&self, pulls: &'a [Pull]) -> &'a [Pull] {
         &pulls[self.pulls[0] as usize..self.pulls[1] as usize]
+    }
+
+    /// Inverse of the mass that moves with it. With a point of a face all others round a corner push that:
+    /// as much area as a node of a flat surface has.
+    fn inertia(&self, mesh: &Mesh) -> f64 {
+        if self.own[1].1 == 0.0 {
+            return self.shares().map(|(i, share)| share * share / mesh.mass[i]).sum();
+        }
+        let per_area = |body: usize| 4.0 / (mesh.bodies[body].rho_0 * mesh.bodies[body].edge());
+        let area = mesh.bodies[self.body].edge().powi(2) / POINTS.len() as f64;
+        (per_area(self.body) + per_area(self.other)) / area
     }
 
     /// Velocity of the point towards the surface.
@@ -359,12 +364,12 @@ impl Surfaces {
             let approach = spring.approach(mesh, velocity);
             rate = rate.max(approach / (APPROACH * spring.distance.max(DEEPEST * spring.stand)));
             let z = spring.distance / spring.stand;
-            let inertia: f64 = spring.shares().map(|(i, w)| w * w / mesh.mass[i]).sum();
+            let inertia = spring.inertia(mesh);
             let body = &mesh.bodies[spring.body];
             let soon = spring.stand + approach * body.edge() / body.solid.sound;
             if spring.distance < soon {
                 let stiffness = spring.area * spring.stiffness * Law::stiffness(z.min(1.0));
-                rate = rate.max((spring.crowd * stiffness * inertia).sqrt() / spring.stand);
+                rate = rate.max((stiffness * inertia).sqrt() / spring.stand);
             }
             if z >= 1.0 {
                 continue;
@@ -376,7 +381,7 @@ impl Surfaces {
                 let slope = 0.5 * (bodies[0].slope + bodies[1].slope);
                 let coefficient = impedance * steepness(method, approach, sound, slope);
                 spring.drag = coefficient * approach;
-                rate = rate.max(DAMPING * spring.crowd * coefficient * inertia);
+                rate = rate.max(DAMPING * coefficient * inertia);
             }
             let force = spring.force + spring.drag;
             let mut add = |i: usize, scale: f64, way: [f64; 3]| {
@@ -648,7 +653,6 @@ impl Spring {
         let part = 1.0 / POINTS.len() as f64;
         let area = cross(sides[0], sides[1]).map(|x| part * x);
         self.area = dot(area, area).sqrt();
-        self.crowd = CROWD;
         let unit = area.map(|x| x / self.area.max(f64::MIN_POSITIVE));
         if self.distance < self.stand {
             let along = [cross(sides[1], unit), cross(unit, sides[0])];
