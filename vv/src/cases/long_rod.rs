@@ -12,6 +12,7 @@ use whipple_solver::space::scene::{
 };
 use whipple_solver::units::Units;
 
+use super::parts::control;
 use super::{Case, Claim, Claims, Kind, Level, Quantity, Wanted, Weight};
 use crate::plots::{Axis, Figure, Layer, Panel, Series as Curve};
 use crate::record::{Records, RunKey, RunRecord, Scheme, Series};
@@ -52,7 +53,16 @@ const EXCHANGED: &str = "exchanged";
 const WIDE: &str = "wide";
 const VISCOSITY_1: &str = "viscosity-1";
 const VISCOSITY_2: &str = "viscosity-2";
-const VARIANTS: [&str; 6] = ["", AS_PRINTED, EXCHANGED, WIDE, VISCOSITY_1, VISCOSITY_2];
+const VARIANTS: [&str; 8] = [
+    "",
+    AS_PRINTED,
+    EXCHANGED,
+    WIDE,
+    VISCOSITY_1,
+    VISCOSITY_2,
+    control::HOURGLASS,
+    control::CENTRING,
+];
 /// Joules of a Mbar cm^3, in thousands.
 const KILOJOULES: f64 = 100.0;
 
@@ -95,7 +105,7 @@ fn varied(method: Method, variant: &str) -> Method {
     match variant {
         VISCOSITY_1 => Method { visc_linear: 1.0, ..method },
         VISCOSITY_2 => Method { visc_linear: 2.0, ..method },
-        _ => method,
+        _ => control::controlled(method, variant),
     }
 }
 
@@ -209,7 +219,9 @@ impl Case for LongRod {
          plain variant exchanges the columns of Table 4 that stand under the wrong metal and converts \
          their hardening to Eq. (44); `as-printed` takes the table as it is, `exchanged` does not \
          convert. No spall strength: none was found for these alloys. `wide` has twice the plate, \
-         `viscosity-1` and `viscosity-2` other linear coefficients. No constant was fitted to this case."
+         `viscosity-1` and `viscosity-2` other linear coefficients; `hourglass-on` resists the hourglass \
+         modes, `centring-on` the motion of centroids against their corners, each with 0.05 of the \
+         stiffness of a cell. No constant was fitted to this case."
     }
 
     fn source(&self) -> &'static str {
@@ -352,6 +364,11 @@ impl Case for LongRod {
                 Wanted::WithinZero(share),
             ));
         }
+        let answers = [
+            ("residual_length_cm", "residual length"),
+            ("residual_velocity_km_s", "residual velocity"),
+        ];
+        out.extend(control::claims(ID, &default_key(SIZES[0], ""), &answers));
         out
     }
 
@@ -491,7 +508,7 @@ fn sensitivities(records: &Records) -> Option<Table> {
     ];
     (!rows.is_empty()).then(|| Table {
         id: "long-rod-inputs".into(),
-        caption: "What strength, plate and viscosity move, n = 5, `default`.".into(),
+        caption: "What strength, plate, viscosity and mode control move, n = 5, `default`.".into(),
         columns,
         rows,
     })

@@ -8,7 +8,7 @@ use whipple_solver::space::scene::{
 use whipple_solver::units::Units;
 
 use super::parts::discs::{Discs, Rod};
-use super::parts::{Columns, moments, resting};
+use super::parts::{Columns, control, moments, resting};
 use super::{Case, Claim, Claims, Kind, Level, Quantity, Wanted, Weight};
 use crate::plots::{Along, Axis, Figure, Layer, Panel, Series as Curve};
 use crate::record::{Records, RunKey, Scheme};
@@ -42,7 +42,7 @@ const ENTRIES: usize = 160;
 const SIZES: [usize; 2] = [8, 12];
 const HALF: &str = "viscosity-half";
 const TWICE: &str = "viscosity-twice";
-const VARIANTS: [&str; 3] = ["", HALF, TWICE];
+const VARIANTS: [&str; 5] = ["", HALF, TWICE, control::HOURGLASS, control::CENTRING];
 /// Millimetres of a centimetre.
 const MM: f64 = 10.0;
 /// Where the bulge is measured, over the initial length.
@@ -59,7 +59,9 @@ pub(super) const COPPER_ROD: Taylor = Taylor {
             rim of the circle is stepped; faces of dead elements stay as large as they were last \
             seen live. The reach is the farthest node of a live element from the axis. The final sizes of \
             the experiment are recalled, not read: they are shown, and nothing required rests on them. \
-            Variants have half and twice every coefficient of the viscosity.",
+            Variants have half and twice every coefficient of the viscosity; `hourglass-on` resists the \
+            hourglass modes, `centring-on` the motion of centroids against their corners, each with 0.05 \
+            of the stiffness of a cell.",
     source: "Johnson and Cook (1983), constants and speed as in `references/materials.toml` and \
              `references/taylor_impact.csv`; equation of state of copper OFHC",
     rod: [0.762, 2.54, 0.019],
@@ -215,7 +217,7 @@ impl Case for Taylor {
             name: self.id.into(),
             units: Units::CmGUsMbar,
             stop_time: STOP,
-            method: varied(preset.space(), variant),
+            method: varied(control::controlled(preset.space(), variant), variant),
             walls: vec![Wall { axis: 2, position: 0.0, material: Side::Above, hold: Hold::Rest }],
             materials: vec![material],
             bodies: vec![rod],
@@ -308,6 +310,8 @@ impl Case for Taylor {
                     Wanted::WithinZero(0.015),
                 ));
             }
+            let answers = [("length_mm", "final length"), ("foot_radius_mm", "foot radius")];
+            out.extend(control::claims(COPPER, &plain(), &answers));
         }
         let aim = Claims::new(self.id, Kind::Validation, Weight::Aim, self.reference);
         let codes = Claims { kind: Kind::Comparison, weight: Weight::Must, ..aim };
