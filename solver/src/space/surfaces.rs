@@ -646,9 +646,7 @@ impl Spring {
             return false;
         };
         let [u, v] = POINTS[point];
-        let between = |x: [f64; 3], y: [f64; 3], t: f64| -> [f64; 3] {
-            std::array::from_fn(|k| x[k] + t * (y[k] - x[k]))
-        };
+        let between = |x: [f64; 3], y: [f64; 3], t: f64| plus(x, t, minus(y, x));
         let sides = [between(minus(b, a), minus(c, d), v), between(minus(d, a), minus(c, b), u)];
         let part = 1.0 / POINTS.len() as f64;
         let area = cross(sides[0], sides[1]).map(|x| part * x);
@@ -660,7 +658,7 @@ impl Spring {
             let slopes = [[v - 1.0, u - 1.0], [1.0 - v, -u], [v, u], [-v, 1.0 - u]];
             pulls.extend(from.nodes.into_iter().zip(slopes).map(|(node, by)| Pull {
                 node,
-                slope: std::array::from_fn(|k| part * (by[0] * along[0][k] + by[1] * along[1][k])),
+                slope: plus(along[0].map(|x| part * by[0] * x), part * by[1], along[1]),
             }));
             self.pulls[1] = pulls.len() as u32;
         }
@@ -695,7 +693,12 @@ fn corners_of(contacts: &Contacts, face: &Face) -> Option<[[f64; 3]; 4]> {
 }
 
 fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    std::array::from_fn(|d| a[d] - b[d])
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+/// `a + t b`.
+fn plus(a: [f64; 3], t: f64, b: [f64; 3]) -> [f64; 3] {
+    [a[0] + t * b[0], a[1] + t * b[1], a[2] + t * b[2]]
 }
 
 fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
@@ -705,36 +708,37 @@ fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
 /// Where, from 0 to 1 along both sides, a bilinear face has its point nearest to `x`, and the way from
 /// there to `x`: Newton's iteration on the square of the distance, within the face.
 fn nearest_point(x: [f64; 3], [a, b, c, d]: [[f64; 3]; 4]) -> ([f64; 2], [f64; 3]) {
-    let sides = [minus(b, a), minus(d, a)];
+    let (from, sides) = (minus(x, a), [minus(b, a), minus(d, a)]);
     let twist = minus(minus(c, d), sides[0]);
-    let away = |at: [f64; 2]| -> [f64; 3] {
-        std::array::from_fn(|k| {
-            x[k] - (a[k] + at[0] * sides[0][k] + at[1] * (sides[1][k] + at[0] * twist[k]))
-        })
-    };
-    let mut at = [0.5; 2];
+    let (mut at, mut moved) = ([0.5; 2], true);
     for _ in 0..ROUNDS {
-        let r = away(at);
-        let along = [0, 1]
-            .map(|i| -> [f64; 3] { std::array::from_fn(|k| sides[i][k] + at[1 - i] * twist[k]) });
-        let slope = along.map(|t| dot(r, t));
-        // What would leave the face stays on its edge.
-        let free =
-            [0, 1].map(|i| !(at[i] <= 0.0 && slope[i] <= 0.0 || at[i] >= 1.0 && slope[i] >= 0.0));
-        let steep = along.map(|t| dot(t, t).max(f64::MIN_POSITIVE));
+        let along = [plus(sides[0], at[1], twist), plus(sides[1], at[0], twist)];
+        let r = plus(plus(from, -at[0], sides[0]), -at[1], along[1]);
+        if !moved {
+            return (at, r);
+        }
+        let slope = [dot(r, along[0]), dot(r, along[1])];
+        let steep = [dot(along[0], along[0]), dot(along[1], along[1])];
         let mixed = dot(along[0], along[1]) - dot(r, twist);
         let both = steep[0] * steep[1] - mixed * mixed;
-        let step = if free == [true; 2] && both > CONVEX * steep[0] * steep[1] {
-            [0, 1].map(|i| (slope[i] * steep[1 - i] - slope[1 - i] * mixed) / both)
-        } else {
-            [0, 1].map(|i| if free[i] { slope[i] / steep[i] } else { 0.0 })
-        };
-        let next = [0, 1].map(|i| (at[i] + step[i]).clamp(0.0, 1.0));
-        let moved = (next[0] - at[0]).abs() + (next[1] - at[1]).abs();
-        at = next;
-        if moved < CLOSEST {
-            break;
+        // What would leave the face stays on its edge.
+        let stays = |i: usize| at[i] <= 0.0 && slope[i] <= 0.0 || at[i] >= 1.0 && slope[i] >= 0.0;
+        let held = [stays(0), stays(1)];
+        let coupled = held == [false; 2] && both > CONVEX * steep[0] * steep[1];
+        moved = false;
+        for i in 0..2 {
+            let step = if coupled {
+                (slope[i] * steep[1 - i] - slope[1 - i] * mixed) / both
+            } else if held[i] {
+                0.0
+            } else {
+                slope[i] / steep[i].max(f64::MIN_POSITIVE)
+            };
+            let next = (at[i] + step).clamp(0.0, 1.0);
+            moved |= (next - at[i]).abs() > CLOSEST;
+            at[i] = next;
         }
     }
-    (at, away(at))
+    let along = plus(sides[1], at[0], twist);
+    (at, plus(plus(from, -at[0], sides[0]), -at[1], along))
 }
