@@ -185,8 +185,7 @@ impl Simulation {
             add(name, Values::F64(places));
         }
         add("list.stale", Values::U8(vec![u8::from(contacts.stale)]));
-        let surfaces = self.surfaces.memory(&self.contacts);
-        add("surface.slot", Values::U64(surfaces.slot));
+        let surfaces = self.surfaces.memory(&self.mesh, &self.contacts);
         add("surface.stand", Values::F64(surfaces.stand));
         add("surface.distance", Values::F64(surfaces.distance));
         add("surface.area", Values::F64(surfaces.area));
@@ -307,7 +306,6 @@ impl Simulation {
         // The list is that of its time; the members stand where they are now.
         self.contacts.refresh(&self.mesh, &self.state, &self.method);
         let memory = surfaces::Memory {
-            slot: from.u64s().to_vec(),
             stand: from.f64s().to_vec(),
             distance: from.f64s().to_vec(),
             area: from.f64s().to_vec(),

@@ -244,21 +244,32 @@ fn bilinear([u, v]: [f64; 2]) -> [f64; 4] {
     [(1.0 - u) * (1.0 - v), u * (1.0 - v), u * v, (1.0 - u) * v]
 }
 
-/// What surfaces keep from step to step, spring by spring.
+/// What surfaces keep from step to step, [`Memory::address`] by address; nothing of a scene without them.
 pub(super) struct Memory {
-    /// The particle that has it times the places of each, and its place among them; ascending.
-    pub(super) slot: Vec<u64>,
     /// Distance at which the point feels a surface.
     pub(super) stand: Vec<f64>,
     /// Distance of the surface when it was last looked at.
     pub(super) distance: Vec<f64>,
     /// Area that the point acted for.
     pub(super) area: Vec<f64>,
-    /// Corners of the face, two in a number, two numbers a spring.
+    /// Corners of the face, two in a number, two numbers an address; all bits set for none.
     pub(super) face: Vec<u64>,
 }
 
 impl Memory {
+    /// Where a place of a particle stands: first all particles themselves, then the faces of nodes.
+    fn address(mesh: &Mesh, particle: usize, place: usize) -> usize {
+        if place == 0 { particle } else { mesh.len + (PLACES - 1) * particle + place - 1 }
+    }
+
+    /// Particle and place at an address.
+    fn place(mesh: &Mesh, at: usize) -> (usize, usize) {
+        match at.checked_sub(mesh.len) {
+            None => (at, 0),
+            Some(rest) => (rest / (PLACES - 1), rest % (PLACES - 1) + 1),
+        }
+    }
+
     /// The first face of particles that are none.
     pub(super) fn no_face(face: &[u64], nodes: usize) -> Option<u64> {
         let none = |pair: u64| pair >> 32 >= nodes as u64 || pair & HALF >= nodes as u64;
@@ -304,33 +315,40 @@ impl Surfaces {
     }
 
     /// What must outlast a restart.
-    pub(super) fn memory(&self, contacts: &Contacts) -> Memory {
-        let of = |f: fn(&Spring) -> f64| self.springs.iter().map(f).collect();
-        let slot = |spring: &Spring| {
+    pub(super) fn memory(&self, mesh: &Mesh, contacts: &Contacts) -> Memory {
+        let all = mesh.len + (PLACES - 1) * mesh.first_centroid;
+        let places = if self.some { all } else { 0 };
+        let mut memory = Memory {
+            stand: vec![0.0; places],
+            distance: vec![0.0; places],
+            area: vec![0.0; places],
+            face: vec![u64::MAX; 2 * places],
+        };
+        for spring in &self.springs {
             let first = contacts.member(spring.slot / PLACES).particle;
-            (PLACES * first + spring.slot % PLACES) as u64
-        };
-        let face = |spring: &Spring| {
+            let at = Memory::address(mesh, first, spring.slot % PLACES);
             let [a, b, c, d] = spring.face.nodes.map(|node| node as u64);
-            [a << 32 | b, c << 32 | d]
-        };
-        Memory {
-            slot: self.springs.iter().map(slot).collect(),
-            stand: of(|spring| spring.stand),
-            distance: of(|spring| spring.distance),
-            area: of(|spring| spring.area),
-            face: self.springs.iter().flat_map(face).collect(),
+            memory.stand[at] = spring.stand;
+            memory.distance[at] = spring.distance;
+            memory.area[at] = spring.area;
+            memory.face[2 * at] = a << 32 | b;
+            memory.face[2 * at + 1] = c << 32 | d;
         }
+        memory
     }
 
     /// Takes it back.
     pub(super) fn recall(&mut self, mesh: &Mesh, contacts: &Contacts, memory: &Memory) {
         self.springs.clear();
-        for (at, (&slot, pair)) in memory.slot.iter().zip(memory.face.as_chunks().0).enumerate() {
-            let [low, high]: [u64; 2] = *pair;
-            let (particle, place) = (slot as usize / PLACES, slot as usize % PLACES);
-            let Some(member) = contacts.find(particle) else { continue };
+        for (at, &[low, high]) in memory.face.as_chunks().0.iter().enumerate() {
+            let (particle, place) = Memory::place(mesh, at);
+            let Some(member) = contacts.find(particle).filter(|_| low != u64::MAX) else {
+                continue;
+            };
             let from = Place::of(mesh, &contacts.member(member), place);
+            if place > 0 && from.nodes.iter().any(|&node| node >= mesh.first_centroid) {
+                continue;
+            }
             let nodes = [low >> 32, low & HALF, high >> 32, high & HALF];
             let face = Face { nodes: nodes.map(|node| node as usize) };
             let to = (face, mesh.place(face.nodes[0]).0);
