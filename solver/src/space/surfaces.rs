@@ -660,27 +660,17 @@ impl Spring {
     fn measure(&mut self, contacts: &Contacts, from: &Place, pulls: &mut Vec<Pull>) -> bool {
         self.pulls = [pulls.len() as u32; 2];
         let Some(point) = from.point else { return true };
-        let Some([a, b, c, d]) = corners_of(contacts, &Face { nodes: from.nodes }) else {
+        let Some(corners) = corners_of(contacts, &Face { nodes: from.nodes }) else {
             return false;
         };
-        let [u, v] = POINTS[point];
-        let between = |x: [f64; 3], y: [f64; 3], t: f64| plus(x, t, minus(y, x));
-        let sides = [between(minus(b, a), minus(c, d), v), between(minus(d, a), minus(c, b), u)];
-        let part = 1.0 / POINTS.len() as f64;
-        let area = cross(sides[0], sides[1]).map(|x| part * x);
-        self.area = dot(area, area).sqrt();
-        let unit = area.map(|x| x / self.area.max(f64::MIN_POSITIVE));
+        let part = Part::of(corners, POINTS[point]);
+        self.area = part.area;
         if self.distance < self.stand {
-            let along = [cross(sides[1], unit), cross(unit, sides[0])];
-            // Derivatives of the shares along both sides.
-            let slopes = [[v - 1.0, u - 1.0], [1.0 - v, -u], [v, u], [-v, 1.0 - u]];
-            pulls.extend(from.nodes.into_iter().zip(slopes).map(|(node, by)| Pull {
-                node,
-                slope: plus(along[0].map(|x| part * by[0] * x), part * by[1], along[1]),
-            }));
+            let slopes = from.nodes.into_iter().zip(part.slopes());
+            pulls.extend(slopes.map(|(node, slope)| Pull { node, slope }));
             self.pulls[1] = pulls.len() as u32;
         }
-        dot(unit, self.way).abs() > FACING
+        dot(part.normal, self.way).abs() > FACING
     }
 
     /// Finds the nearest point of the face, which is bilinear as the pyramid under it. Returns whether
@@ -698,6 +688,38 @@ impl Spring {
         self.distance = dot(r, r).sqrt();
         self.way = r.map(|r| r / self.distance);
         true
+    }
+}
+
+/// The part of a face that one of its points acts for.
+struct Part {
+    /// Where the point is, from 0 to 1 along both sides.
+    at: [f64; 2],
+    /// Derivatives of the place along both.
+    along: [[f64; 3]; 2],
+    area: f64,
+    normal: [f64; 3],
+}
+
+impl Part {
+    fn of([a, b, c, d]: [[f64; 3]; 4], at: [f64; 2]) -> Self {
+        let between = |x: [f64; 3], y: [f64; 3], t: f64| plus(x, t, minus(y, x));
+        let along =
+            [between(minus(b, a), minus(c, d), at[1]), between(minus(d, a), minus(c, b), at[0])];
+        let area = cross(along[0], along[1]);
+        let size = dot(area, area).sqrt();
+        let normal = area.map(|x| x / size.max(f64::MIN_POSITIVE));
+        Self { at, along, area: size / POINTS.len() as f64, normal }
+    }
+
+    /// Gradients of the area, by corner.
+    fn slopes(&self) -> [[f64; 3]; 4] {
+        let [u, v] = self.at;
+        let turned = [cross(self.along[1], self.normal), cross(self.normal, self.along[0])];
+        let [p, q] = turned.map(|way| way.map(|x| x / POINTS.len() as f64));
+        // Derivatives of the shares of the corners along both sides.
+        [[v - 1.0, u - 1.0], [1.0 - v, -u], [v, u], [-v, 1.0 - u]]
+            .map(|[by, other]| plus(p.map(|x| by * x), other, q))
     }
 }
 
@@ -759,4 +781,67 @@ fn nearest_point(x: [f64; 3], [a, b, c, d]: [[f64; 3]; 4]) -> ([f64; 2], [f64; 3
     }
     let along = plus(sides[1], at[0], twist);
     (at, plus(plus(from, -at[0], sides[0]), -at[1], along))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A face that is neither flat nor square.
+    const CORNERS: [[f64; 3]; 4] =
+        [[0.1, 0.0, -0.1], [1.2, 0.1, 0.2], [0.9, 1.1, -0.1], [-0.1, 0.8, 0.3]];
+
+    fn on_face(at: [f64; 2]) -> [f64; 3] {
+        let shares = bilinear(at);
+        (0..4).fold([0.0; 3], |x, k| plus(x, shares[k], CORNERS[k]))
+    }
+
+    #[test]
+    fn the_nearest_point_is_nearer_than_any_of_a_grid() {
+        for x in [[0.4, 0.5, 0.3], [0.9, 0.2, -0.4], [-0.3, 0.4, 0.1], [1.4, 1.5, 0.2]] {
+            let (at, r) = nearest_point(x, CORNERS);
+            let found = dot(r, r);
+            let away = minus(x, on_face(at));
+            assert!((dot(away, away) - found).abs() < 1e-14);
+            for k in 0..=40 {
+                for j in 0..=40 {
+                    let other = minus(x, on_face([f64::from(k) / 40.0, f64::from(j) / 40.0]));
+                    assert!(dot(other, other) >= found - 1e-14, "{x:?} {at:?} {k} {j}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn parts_fill_a_flat_face_and_their_slopes_are_gradients() {
+        let flat = [[0.0; 3], [1.2, 0.1, 0.0], [1.0, 1.0, 0.0], [0.1, 0.8, 0.0]];
+        let whole = 0.5 * cross(minus(flat[2], flat[0]), minus(flat[3], flat[1]))[2];
+        let sum: f64 = POINTS.iter().map(|&at| Part::of(flat, at).area).sum();
+        assert!((sum / whole - 1.0).abs() < 1e-14);
+        for at in POINTS {
+            let slopes = Part::of(CORNERS, at).slopes();
+            for corner in 0..4 {
+                for d in 0..3 {
+                    let moved = |by: f64| {
+                        let mut corners = CORNERS;
+                        corners[corner][d] += by;
+                        Part::of(corners, at).area
+                    };
+                    let slope = (moved(1e-6) - moved(-1e-6)) / 2e-6;
+                    assert!((slopes[corner][d] - slope).abs() < 1e-9, "{at:?} {corner} {d}");
+                }
+            }
+        }
+    }
+
+    /// The work of a pressure at the points, on each corner of a square, is that on its bilinear face.
+    #[test]
+    fn points_integrate_what_a_bulge_and_a_slide_do_together() {
+        let exact = [1.0 / 9.0, 1.0 / 18.0, 1.0 / 36.0, 1.0 / 18.0];
+        for (corner, exact) in exact.into_iter().enumerate() {
+            let products = POINTS.map(|at| bilinear(at)[0] * bilinear(at)[corner]);
+            let sum: f64 = products.iter().sum::<f64>() / POINTS.len() as f64;
+            assert!((sum - exact).abs() < 1e-15, "{corner}");
+        }
+    }
 }
