@@ -68,8 +68,6 @@ pub(super) struct Member {
     pub(super) body: usize,
     /// Its place in the lattice.
     pub(super) place: [i16; 3],
-    /// Where it is.
-    pub(super) position: [f64; 3],
 }
 
 /// What contacts keep from step to step, particle by particle.
@@ -268,7 +266,6 @@ impl Contacts {
             particle: self.members[at] as usize,
             body: self.body[at] as usize,
             place: self.place[at],
-            position: self.position(at as u32),
         }
     }
 

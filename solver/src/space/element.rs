@@ -723,11 +723,16 @@ impl Group {
             let own = -dot(&r, &w);
             let before = dot(&r, &sub(&seen.v[7 - slot], &seen.v[CENTRE]));
             let at = self.beyond[slot] as usize;
-            let next = [
+            let mut next = [
                 F::load(read.velocity[0], at),
                 F::load(read.velocity[1], at),
                 F::load(read.velocity[2], at),
             ];
+            if self.mirrored[slot] != 0 {
+                for (d, next) in next.iter_mut().enumerate() {
+                    *next = if self.mirrored[slot] >> d & 1 == 1 { -*next } else { *next };
+                }
+            }
             let beyond = dot(&r, &sub(&seen.v[slot], &next)).keep(self.has_beyond[slot]);
             let (behind, ahead) = (before * own, beyond * own);
             let mean = before * beyond * method.limiter / ((before + beyond) * own);

@@ -10,7 +10,7 @@ use std::ops::Range;
 use super::eos::Eos;
 use super::lanes::{F8, LANES, Lanes, Mask};
 use super::lattice::{CENTROID_SHARE, Lattice};
-use super::scene::{Body as BodyData, Scene};
+use super::scene::{Body as BodyData, Hold, Scene, Wall};
 use super::strength::Solid;
 use crate::method::Viscosity;
 
@@ -57,6 +57,8 @@ pub struct Body {
     pub bond_areas: [f64; 2],
     /// Slope of the shock speed.
     pub slope: f64,
+    /// By axis of the lattice and end: the coordinate that a mirror there turns round, if there is one.
+    pub mirrors: [[Option<usize>; 2]; 3],
 }
 
 /// Up to eight elements, neighbours along the fast axis.
@@ -90,6 +92,8 @@ pub struct Group {
     pub beyond: [u32; 8],
     /// Lanes that have a live element beyond each corner.
     pub has_beyond: [Mask; 8],
+    /// Coordinates, bit by bit, in which that element is a mirror image.
+    pub mirrored: [u8; 8],
     /// Effective plastic strain.
     pub strain: F8,
     /// Hardening and rate factor of the yield stress, softening apart.
@@ -415,6 +419,7 @@ impl Body {
             bond_areas: [0.75, 0.5f64.powf(2.0 / 3.0)]
                 .map(|share| share * lattice.cell_volume().powf(2.0 / 3.0)),
             slope: eos.slope(),
+            mirrors: mirrors(scene, &lattice, data.velocity),
             corners,
             lattice,
             nodes: nodes.clone(),
@@ -464,6 +469,27 @@ fn eights_round(range: &Range<usize>) -> Range<usize> {
     range.start / LANES * LANES..range.end.next_multiple_of(LANES)
 }
 
+/// Mirrors on which a lattice ends, that move with it.
+fn mirrors(scene: &Scene, lattice: &Lattice, velocity: [f64; 3]) -> [[Option<usize>; 2]; 3] {
+    let mut found = [[None; 2]; 3];
+    let still = |wall: &&Wall| wall.hold == Hold::Mirror && velocity[wall.axis] == 0.0;
+    for wall in scene.walls.iter().filter(still) {
+        for (k, found) in found.iter_mut().enumerate() {
+            let along = lattice.axes[k][wall.axis];
+            if along.abs() < 1.0 - 1e-12 {
+                continue;
+            }
+            let at = (wall.position - lattice.origin[wall.axis]) / (along * lattice.size[k]);
+            for (end, found) in [0.0, lattice.cells[k] as f64].into_iter().zip(found) {
+                if (at - end).abs() < 1e-6 {
+                    *found = Some(wall.axis);
+                }
+            }
+        }
+    }
+    found
+}
+
 /// Corners of a cell from its centre; slot `b1 + 2 b2 + 4 b3` for the bits along the axes.
 fn corners(lattice: &Lattice) -> [[f64; 3]; 8] {
     std::array::from_fn(|slot| {
@@ -494,6 +520,7 @@ impl Group {
             stiff: None,
             beyond: [0; 8],
             has_beyond: [0; 8],
+            mirrored: [0; 8],
             strain: F8::ZERO,
             flow: F8::splat(solid.first_flow()),
             rate: F8::ZERO,
@@ -501,12 +528,21 @@ impl Group {
         }
     }
 
-    /// Finds the elements that continue the diagonals beyond the corners. They lie in one row side by
-    /// side, as the elements of the group do; what does not is left out.
+    /// Finds the elements that continue the diagonals beyond the corners, or whose mirror images do. They
+    /// lie in one row side by side, as the elements of the group do; what does not is left out.
     fn look_beyond(&mut self, body: &Body) {
         let lattice = &body.lattice;
         for corner in 0..8 {
-            let way = [0, 1, 2].map(|d| if corner >> d & 1 == 1 { 2 } else { -2 });
+            let mut way = [0, 1, 2].map(|d| if corner >> d & 1 == 1 { 2 } else { -2 });
+            let own = lattice.centroids[self.centre as usize - body.centroids.start];
+            for k in [1, 2] {
+                let end = corner >> k & 1;
+                let last = [1, 2 * lattice.cells[k] as i16 - 1][end];
+                if let (Some(d), true) = (body.mirrors[k][end], own[k] == last) {
+                    way[k] = 0;
+                    self.mirrored[corner] |= 1 << d;
+                }
+            }
             let mut first = None;
             for lane in 0..u32::from(self.lanes) {
                 let own = (self.centre + lane) as usize - body.centroids.start;

@@ -99,7 +99,7 @@ impl Preset {
             visc_quad: 1.0,
             visc_expansion: 0.5,
             visc_volume: 0.0,
-            limiter: 4.0,
+            limiter: 2.0,
             heat_coeff: 1.0,
             balance: 1.0,
             hourglass: 0.0,

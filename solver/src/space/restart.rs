@@ -185,9 +185,10 @@ impl Simulation {
             add(name, Values::F64(places));
         }
         add("list.stale", Values::U8(vec![u8::from(contacts.stale)]));
-        let surfaces = self.surfaces.memory(&self.contacts, self.mesh.len);
+        let surfaces = self.surfaces.memory(&self.mesh, &self.contacts);
         add("surface.stand", Values::F64(surfaces.stand));
         add("surface.distance", Values::F64(surfaces.distance));
+        add("surface.area", Values::F64(surfaces.area));
         add("surface.face", Values::U64(surfaces.face));
         add("run.clock", Values::F64(self.clock().to_vec()));
         add("run.ledger", Values::F64(self.books().to_vec()));
@@ -307,6 +308,7 @@ impl Simulation {
         let memory = surfaces::Memory {
             stand: from.f64s().to_vec(),
             distance: from.f64s().to_vec(),
+            area: from.f64s().to_vec(),
             face: from.u64s().to_vec(),
         };
         self.surfaces.recall(&self.mesh, &self.contacts, &memory);

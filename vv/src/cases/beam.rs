@@ -7,7 +7,7 @@ use whipple_solver::space::scene::{
 use whipple_solver::units::Units;
 
 use super::parts::fit::oscillation;
-use super::parts::{Columns, mirror, modes, resting};
+use super::parts::{Columns, control, mirror, modes, resting};
 use super::{Case, Claim, Claims, Kind, Level, Quantity, Wanted, Weight};
 use crate::exact::beam::{Beam as Exact, Support};
 use crate::plots::{Axis, Figure, Layer, Panel, Series as Curve};
@@ -32,6 +32,7 @@ const PER_PERIOD: usize = 60;
 /// Every so many of them are fitted.
 const FITTED: usize = 3;
 const PERIODS: f64 = 1.5;
+const VARIANTS: [&str; 3] = ["", control::HOURGLASS, control::CENTRING];
 /// Cells through the height.
 const SIZES: [usize; 3] = [2, 4, 8];
 
@@ -58,18 +59,23 @@ impl Case for Beam {
          the beam in its symmetric modes, without translation. The deflection, projected on the shape of \
          the first mode, is fitted by a damped oscillation over one and a half periods. Decay is in \
          nepers a period. Hourglass is the largest kinetic energy of the hourglass modes over the initial \
-         one. n counts the cells through the height."
+         one. `hourglass-on` resists the hourglass modes, `centring-on` the motion of centroids against \
+         their corners, each with 0.05 of the stiffness of a cell. n counts the cells through the height."
     }
 
     fn source(&self) -> &'static str {
         "Timoshenko frequency of the free beam, mode 1; `references/beam_frequencies.csv`"
     }
 
+    fn variants(&self) -> &'static [&'static str] {
+        &VARIANTS
+    }
+
     fn default_size(&self) -> usize {
         SIZES[1]
     }
 
-    fn scene(&self, preset: Preset, _: &str, n: usize) -> AnyScene {
+    fn scene(&self, preset: Preset, variant: &str, n: usize) -> AnyScene {
         let [young, poisson] = ELASTIC;
         let bulk: f64 = young / (3.0 * (1.0 - 2.0 * poisson));
         let law = GammaLaw::ConstantProduct;
@@ -101,7 +107,7 @@ impl Case for Beam {
             name: ID.into(),
             units: Units::CmGUsMbar,
             stop_time: PERIODS / frequency,
-            method: preset.space(),
+            method: control::controlled(preset.space(), variant),
             walls: vec![mirror(0, 0.0, Side::Above)],
             materials: vec![metal],
             bodies: vec![beam],
@@ -171,9 +177,11 @@ impl Case for Beam {
         let mut keys = vec![key(Preset::Default, SIZES[0]), key(Preset::Default, SIZES[1])];
         if level >= Level::Standard {
             keys.push(key(Preset::Paper, SIZES[1]));
+            keys.extend(control::runs(&key(Preset::Default, SIZES[1])));
         }
         if level == Level::Full {
             keys.push(key(Preset::Default, SIZES[2]));
+            keys.extend(control::runs(&key(Preset::Default, SIZES[2])));
         }
         keys
     }
@@ -187,6 +195,10 @@ impl Case for Beam {
             must.claim("frequency, 4 cells, error", error(SIZES[1]), Wanted::WithinZero(0.05)),
             aim.claim("frequency, 8 cells, error", error(SIZES[2]), Wanted::WithinZero(0.01)),
         ];
+        for n in [SIZES[1], SIZES[2]] {
+            let answers = [("frequency_khz", "frequency")];
+            out.extend(control::claims(ID, &key(Preset::Default, n), &answers));
+        }
         out.extend(super::conservation_in_space(ID, &key(Preset::Default, SIZES[1])));
         out
     }

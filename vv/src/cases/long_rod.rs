@@ -69,7 +69,9 @@ impl Case for LongRod {
          convert. No spall strength: none was found for these alloys; `references/materials.toml` has 1.7 to \
          2.0 GPa of a 93 % tungsten alloy. `wide` has twice the plate, \
          `viscosity-1` and `viscosity-2` other linear coefficients, `yield-as-printed` the yield function \
-         of Eqs. (39)-(43) as it is printed. No constant was fitted to this case."
+         of Eqs. (39)-(43) as it is printed; `hourglass-on` resists the hourglass modes, `centring-on` the \
+         motion of centroids against their corners, each with 0.05 of the stiffness of a cell. No constant \
+         was fitted to this case."
     }
 
     fn source(&self) -> &'static str {

@@ -7,7 +7,7 @@ use whipple_solver::space::scene::{Body, Material, Scene, Shape, Strength};
 use whipple_solver::units::Units;
 
 use super::parts::metals::COPPER;
-use super::parts::{Columns, modes, resting};
+use super::parts::{Columns, control, modes, resting};
 use super::{Case, Claim, Claims, Kind, Level, Quantity, Wanted, Weight};
 use crate::plots::{Axis, Figure, Panel, Series as Curve};
 use crate::record::{Records, RunKey, Scheme};
@@ -27,7 +27,7 @@ const NOISE: f64 = 1e-4;
 /// Entries of the history: a turn.
 const ENTRIES: usize = 64;
 const NOISY: &str = "noise";
-const VARIANTS: [&str; 2] = ["", NOISY];
+const VARIANTS: [&str; 4] = ["", NOISY, control::HOURGLASS, control::CENTRING];
 const SIZES: [usize; 2] = [10, 20];
 
 fn default_key(variant: &str, n: usize) -> RunKey {
@@ -61,8 +61,10 @@ impl Case for SpinningBlock {
          Hourglass is the kinetic energy of the four hourglass modes of the corners of every element, \
          checkerboard that of centroids against the mean of their corners, over the initial kinetic \
          energy: both vanish in rotation. Growth is the largest of the last quarter of the turn over \
-         the largest of the first. The variant `noise` starts with random velocities of 1 m/s. n counts \
-         the cells along the longest edge."
+         the largest of the first. The variant `noise` starts with random velocities of 1 m/s, \
+         `hourglass-on` resists the hourglass modes and `centring-on` the motion of centroids against \
+         their corners, each with 0.05 of the stiffness of a cell. n counts the cells along the longest \
+         edge."
     }
 
     fn source(&self) -> &'static str {
@@ -92,7 +94,7 @@ impl Case for SpinningBlock {
             name: ID.into(),
             units: Units::CmGUsMbar,
             stop_time: TAU / SPIN,
-            method: preset.space(),
+            method: control::controlled(preset.space(), variant),
             walls: Vec::new(),
             materials: vec![metal],
             bodies: vec![block],
@@ -170,6 +172,8 @@ impl Case for SpinningBlock {
             }
             out.extend(super::conservation_in_space(ID, &key));
         }
+        let answers = [("stored", "largest elastic energy")];
+        out.extend(control::claims(ID, &default_key("", SIZES[0]), &answers));
         out
     }
 

@@ -8,7 +8,7 @@ use whipple_solver::space::scene::{
 use whipple_solver::units::Units;
 
 use super::parts::discs::Discs;
-use super::parts::{Columns, moments, resting};
+use super::parts::{Columns, control, moments, resting};
 use super::{Case, Claim, Claims, Kind, Level, Quantity, Wanted, Weight};
 use crate::plots::{Along, Axis, Figure, Layer, Panel, Series as Curve};
 use crate::record::{Records, RunKey, Scheme};
@@ -45,7 +45,7 @@ const HISTORY: [&str; 8] =
     ["time", "length", "foot", "foot_left", "reach", "kinetic", "momentum", "dead"];
 const HALF: &str = "viscosity-half";
 const TWICE: &str = "viscosity-twice";
-const VARIANTS: [&str; 3] = ["", HALF, TWICE];
+const VARIANTS: [&str; 5] = ["", HALF, TWICE, control::HOURGLASS, control::CENTRING];
 /// Millimetres of a centimetre.
 const MM: f64 = 10.0;
 /// Where the bulge is measured, over the initial length.
@@ -63,7 +63,9 @@ pub(super) const COPPER_ROD: Taylor = Taylor {
             seen live. The reach is the farthest node of a live element from the axis. The final sizes of \
             the experiment, 0.638 of the length and 1.78 of the diameter, were read in a transcription of \
             digitised figures, not in the reports themselves: nothing required rests on them. \
-            Variants have half and twice every coefficient of the viscosity.",
+            Variants have half and twice every coefficient of the viscosity; `hourglass-on` resists the \
+            hourglass modes, `centring-on` the motion of centroids against their corners, each with 0.05 \
+            of the stiffness of a cell.",
     source: "Johnson and Cook (1983), constants as in `references/materials.toml`, test as in \
              `references/taylor_impact.csv` (bbanerjee/HighRateExptData); equation of state of copper OFHC",
     rod: [0.762, 2.54, 0.019],
@@ -219,7 +221,7 @@ impl Case for Taylor {
             name: self.id.into(),
             units: Units::CmGUsMbar,
             stop_time: STOP,
-            method: varied(preset.space(), variant),
+            method: varied(control::controlled(preset.space(), variant), variant),
             walls: vec![Wall { axis: 2, position: 0.0, material: Side::Above, hold: Hold::Rest }],
             materials: vec![material],
             bodies: vec![rod],
@@ -318,6 +320,8 @@ impl Case for Taylor {
                     Wanted::WithinZero(0.015),
                 ));
             }
+            let answers = [("length_mm", "final length"), ("foot_radius_mm", "foot radius")];
+            out.extend(control::claims(COPPER, &plain(), &answers));
         }
         let aim = Claims::new(self.id, Kind::Validation, Weight::Aim, self.reference);
         let codes = Claims { kind: Kind::Comparison, weight: Weight::Must, ..aim };

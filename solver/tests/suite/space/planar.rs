@@ -1,4 +1,4 @@
-//! A plane shock in copper behind a wall, on the Hugoniot.
+//! Plane shocks in copper, behind a wall and between two bodies, on the Hugoniot.
 
 use whipple_solver::space::scene::{Body, Side};
 
@@ -32,5 +32,38 @@ fn a_shock_has_the_pressure_of_the_hugoniot() {
     let error = mean / (8.93 * us * up) - 1.0;
     println!("pressure {:+.2} % of {} particles", 100.0 * error, pressures.len());
     assert!(error.abs() < 0.01 && pressures.len() > 50);
+    assert_eq!(simulation.failed(), (0, 0));
+}
+
+/// Without strength nothing but the contact keeps their surfaces flat (decision 0016).
+#[test]
+fn pressed_surfaces_stay_flat() {
+    let (n, lateral, a, speed) = (24, 4, 0.1, 0.4);
+    let l = n as f64 * a;
+    let w = lateral as f64 * a;
+    let body = |centre: f64, velocity: f64| Body {
+        centre: [centre, 0.0, 0.0],
+        velocity: [velocity, 0.0, 0.0],
+        noise: 0.0025 * speed,
+        ..block("copper", [n, lateral, lateral], a)
+    };
+    let bodies = vec![body(-0.5 * l - a, speed), body(0.5 * l, 0.0)];
+    let mut scene = scene(vec![copper()], bodies);
+    for axis in 1..3 {
+        scene.walls.push(mirror(axis, -0.5 * w, Side::Above));
+        scene.walls.push(mirror(axis, 0.5 * w, Side::Below));
+    }
+    let mut simulation = start(&scene);
+    let at_surface =
+        |p: &whipple_solver::space::output::Particle| p.body == 1 && p.position[0].abs() < 1e-9;
+    let surface: Vec<u32> = simulation.all_particles().filter(at_surface).map(|p| p.id).collect();
+    assert_eq!(surface.len(), (lateral + 1) * (lateral + 1));
+    let us = 0.394 + 1.489 * 0.5 * speed;
+    simulation.advance_to(l / us).expect("the shock runs");
+    let places: Vec<f64> = surface.iter().map(|&i| simulation.particle(i).position[0]).collect();
+    let mean = places.iter().sum::<f64>() / places.len() as f64;
+    let height = places.iter().map(|x| (x - mean).abs()).fold(0.0, f64::max);
+    println!("height {:.1e} cells", height / a);
+    assert!(height < 0.01 * a);
     assert_eq!(simulation.failed(), (0, 0));
 }

@@ -5,6 +5,7 @@ use whipple_solver::method::Preset;
 use super::problem::{EXCHANGED, ID, SIZES, VARIANTS, WIDE};
 use super::published::KNOWN;
 use super::{kernel_key, key, varied_key};
+use crate::cases::parts::control;
 use crate::cases::{Claim, Claims, Kind, Level, Quantity, Wanted, Weight, conservation_in_space};
 use crate::record::RunKey;
 
@@ -78,5 +79,7 @@ pub(super) fn all() -> Vec<Claim> {
             Wanted::WithinZero(known.edge),
         ));
     }
+    let answers = KNOWN.each_ref().map(|known| (known.norm, known.name));
+    out.extend(control::claims(ID, &key(Preset::Default, SIZES[0]), &answers));
     out
 }

@@ -7,6 +7,8 @@ use whipple_solver::space::scene::{
 };
 use whipple_solver::units::Units;
 
+use crate::cases::parts::control;
+
 pub(super) const ID: &str = "long-rod";
 /// Diameter and length of the rod, thickness of the plate, in cm: the paper's problem.
 const DIAMETER: f64 = 0.5;
@@ -37,8 +39,17 @@ const VISCOSITY_2: &str = "viscosity-2";
 const YIELD_AS_PRINTED: &str = "yield-as-printed";
 
 /// Names of the variants, the plain one first.
-pub(super) const VARIANTS: [&str; 7] =
-    ["", AS_PRINTED, EXCHANGED, WIDE, VISCOSITY_1, VISCOSITY_2, YIELD_AS_PRINTED];
+pub(super) const VARIANTS: [&str; 9] = [
+    "",
+    AS_PRINTED,
+    EXCHANGED,
+    WIDE,
+    VISCOSITY_1,
+    VISCOSITY_2,
+    YIELD_AS_PRINTED,
+    control::HOURGLASS,
+    control::CENTRING,
+];
 
 /// What a variant is, in words.
 pub(super) fn words(variant: &str) -> &'static str {
@@ -49,6 +60,8 @@ pub(super) fn words(variant: &str) -> &'static str {
         VISCOSITY_1 => "linear viscosity 1",
         VISCOSITY_2 => "linear viscosity 2",
         YIELD_AS_PRINTED => "yield function as printed",
+        control::HOURGLASS => "hourglass modes resisted",
+        control::CENTRING => "motion of centroids resisted",
         _ => "Table 4 exchanged and converted",
     }
 }
@@ -94,7 +107,7 @@ fn varied(method: Method, variant: &str) -> Method {
         VISCOSITY_1 => Method { visc_linear: 1.0, ..method },
         VISCOSITY_2 => Method { visc_linear: 2.0, ..method },
         YIELD_AS_PRINTED => Method { yield_norm: YieldNorm::AsPrinted, ..method },
-        _ => method,
+        _ => control::controlled(method, variant),
     }
 }
 

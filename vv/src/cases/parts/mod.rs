@@ -1,5 +1,6 @@
 //! What cases in space share: metals, walls, bodies, averages over planes, initial motions.
 
+pub(super) mod control;
 pub(super) mod discs;
 pub(super) mod fit;
 pub(super) mod metals;

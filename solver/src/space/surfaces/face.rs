@@ -1,0 +1,242 @@
+//! Faces of live surfaces, and points of them.
+
+use crate::space::contacts::Contacts;
+use crate::space::lattice::cross;
+use crate::space::mesh::{Body, Mesh};
+
+/// Points of a face, from 0 to 1 along its sides: those of Gauss, two each way. A pressure then does on
+/// every corner the work that it does on the bilinear face, and no point starts on an edge of the
+/// face across (decision 0016).
+pub(super) const POINTS: [[f64; 2]; 4] = {
+    // (1 - 1/sqrt(3)) / 2
+    let (low, high) = (0.211_324_865_405_187_12, 0.788_675_134_594_812_9);
+    [[low, low], [high, low], [high, high], [low, high]]
+};
+
+/// Most rounds of the search for the nearest point of a face, and the move along its sides that ends it.
+const ROUNDS: usize = 12;
+const CLOSEST: f64 = 1e-13;
+
+/// Least curvature of the square of the distance, over that of a flat face, that the search trusts.
+const CONVEX: f64 = 0.1;
+
+/// Face of an element.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Face {
+    /// Its corners, in order about the axis that it lies across, from the lowest.
+    pub(super) nodes: [usize; 4],
+}
+
+/// Calls for every face of the live surface of a body round a node, with the side of its element: twice
+/// the axis that it lies across, and one more if it is the upper one.
+pub(super) fn each_face(mesh: &Mesh, body: usize, at: [i16; 3], mut f: impl FnMut(Face, usize)) {
+    let own = &mesh.bodies[body];
+    let mut live = 0u8;
+    for (octant, cell) in own.lattice.cells_round(at) {
+        live |= u8::from(mesh.held(own.centroids.start + cell as usize)) << octant;
+    }
+    for octant in (0..8).filter(|octant| live >> octant & 1 == 1) {
+        let upper = |d: usize| octant >> d & 1 == 1;
+        let corner: [i16; 3] = std::array::from_fn(|d| if upper(d) { at[d] } else { at[d] - 2 });
+        // The cell beyond the face is another one round the node.
+        for axis in (0..3).filter(|axis| live >> (octant ^ 1 << axis) & 1 == 0) {
+            let mut lowest = corner;
+            lowest[axis] = at[axis];
+            f(face_across(own, lowest, axis), 2 * axis + usize::from(!upper(axis)));
+        }
+    }
+}
+
+/// The face across an axis with this node as its lowest corner.
+pub(super) fn face_across(body: &Body, lowest: [i16; 3], axis: usize) -> Face {
+    let nodes = [[0, 0], [2, 0], [2, 2], [0, 2]].map(|step: [i16; 2]| {
+        let mut node = lowest;
+        node[(axis + 1) % 3] += step[0];
+        node[(axis + 2) % 3] += step[1];
+        body.nodes.start + body.lattice.node(node) as usize
+    });
+    Face { nodes }
+}
+
+/// Shares of the corners of a face in a point of it.
+pub(super) fn bilinear([u, v]: [f64; 2]) -> [f64; 4] {
+    [(1.0 - u) * (1.0 - v), u * (1.0 - v), u * v, (1.0 - u) * v]
+}
+
+/// Where the corners of a face are, if that is known: those of live surfaces are.
+pub(super) fn corners_of(contacts: &Contacts, face: &Face) -> Option<[[f64; 3]; 4]> {
+    let mut corners = [[0.0; 3]; 4];
+    for (corner, &node) in corners.iter_mut().zip(&face.nodes) {
+        *corner = contacts.position(contacts.find(node)? as u32);
+    }
+    Some(corners)
+}
+
+/// Where a mean of particles is, with their shares, if that is known.
+pub(super) fn place_of(contacts: &Contacts, own: &[(usize, f64); 4]) -> Option<[f64; 3]> {
+    let mut x = [0.0; 3];
+    for &(i, share) in own.iter().filter(|own| own.1 > 0.0) {
+        x = plus(x, share, contacts.position(contacts.find(i)? as u32));
+    }
+    Some(x)
+}
+
+/// The part of a face that one of its points acts for.
+pub(super) struct Part {
+    /// Where the point is, from 0 to 1 along both sides.
+    pub(super) at: [f64; 2],
+    /// Derivatives of the place along both.
+    pub(super) along: [[f64; 3]; 2],
+    pub(super) area: f64,
+    pub(super) normal: [f64; 3],
+}
+
+impl Part {
+    pub(super) fn of([a, b, c, d]: [[f64; 3]; 4], at: [f64; 2]) -> Self {
+        let between = |x: [f64; 3], y: [f64; 3], t: f64| plus(x, t, minus(y, x));
+        let along =
+            [between(minus(b, a), minus(c, d), at[1]), between(minus(d, a), minus(c, b), at[0])];
+        let area = cross(along[0], along[1]);
+        let size = dot(area, area).sqrt();
+        let normal = area.map(|x| x / size.max(f64::MIN_POSITIVE));
+        Self { at, along, area: size / POINTS.len() as f64, normal }
+    }
+
+    /// Gradients of the area, by corner.
+    pub(super) fn slopes(&self) -> [[f64; 3]; 4] {
+        let [u, v] = self.at;
+        let turned = [cross(self.along[1], self.normal), cross(self.normal, self.along[0])];
+        let [p, q] = turned.map(|way| way.map(|x| x / POINTS.len() as f64));
+        // Derivatives of the shares of the corners along both sides.
+        [[v - 1.0, u - 1.0], [1.0 - v, -u], [v, u], [-v, 1.0 - u]]
+            .map(|[by, other]| plus(p.map(|x| by * x), other, q))
+    }
+}
+
+/// The point of a face that is nearest to another point.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Nearest {
+    /// Where it is, from 0 to 1 along both sides.
+    pub(super) at: [f64; 2],
+    /// From there to the other.
+    pub(super) r: [f64; 3],
+    /// Square of its length.
+    pub(super) square: f64,
+}
+
+impl Nearest {
+    /// Of a bilinear face with these corners, to `x`: Newton's iteration on the square of the distance,
+    /// within the face.
+    pub(super) fn of(x: [f64; 3], [a, b, c, d]: [[f64; 3]; 4]) -> Self {
+        let (from, sides) = (minus(x, a), [minus(b, a), minus(d, a)]);
+        let twist = minus(minus(c, d), sides[0]);
+        let (mut at, mut moved) = ([0.5; 2], true);
+        for _ in 0..ROUNDS {
+            let along = [plus(sides[0], at[1], twist), plus(sides[1], at[0], twist)];
+            let r = plus(plus(from, -at[0], sides[0]), -at[1], along[1]);
+            if !moved {
+                return Self { at, r, square: dot(r, r) };
+            }
+            let slope = [dot(r, along[0]), dot(r, along[1])];
+            let steep = [dot(along[0], along[0]), dot(along[1], along[1])];
+            let mixed = dot(along[0], along[1]) - dot(r, twist);
+            let both = steep[0] * steep[1] - mixed * mixed;
+            // What would leave the face stays on its edge.
+            let stays =
+                |i: usize| at[i] <= 0.0 && slope[i] <= 0.0 || at[i] >= 1.0 && slope[i] >= 0.0;
+            let held = [stays(0), stays(1)];
+            let coupled = held == [false; 2] && both > CONVEX * steep[0] * steep[1];
+            moved = false;
+            for i in 0..2 {
+                let step = if coupled {
+                    (slope[i] * steep[1 - i] - slope[1 - i] * mixed) / both
+                } else if held[i] {
+                    0.0
+                } else {
+                    slope[i] / steep[i].max(f64::MIN_POSITIVE)
+                };
+                let next = (at[i] + step).clamp(0.0, 1.0);
+                moved |= (next - at[i]).abs() > CLOSEST;
+                at[i] = next;
+            }
+        }
+        let along = plus(sides[1], at[0], twist);
+        let r = plus(plus(from, -at[0], sides[0]), -at[1], along);
+        Self { at, r, square: dot(r, r) }
+    }
+}
+
+pub(super) fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+/// `a + t b`.
+pub(super) fn plus(a: [f64; 3], t: f64, b: [f64; 3]) -> [f64; 3] {
+    [a[0] + t * b[0], a[1] + t * b[1], a[2] + t * b[2]]
+}
+
+pub(super) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A face that is neither flat nor square.
+    const CORNERS: [[f64; 3]; 4] =
+        [[0.1, 0.0, -0.1], [1.2, 0.1, 0.2], [0.9, 1.1, -0.1], [-0.1, 0.8, 0.3]];
+
+    fn on_face(at: [f64; 2]) -> [f64; 3] {
+        let shares = bilinear(at);
+        (0..4).fold([0.0; 3], |x, k| plus(x, shares[k], CORNERS[k]))
+    }
+
+    #[test]
+    fn the_nearest_point_is_nearer_than_any_of_a_grid() {
+        for x in [[0.4, 0.5, 0.3], [0.9, 0.2, -0.4], [-0.3, 0.4, 0.1], [1.4, 1.5, 0.2]] {
+            let Nearest { at, square: found, .. } = Nearest::of(x, CORNERS);
+            let away = minus(x, on_face(at));
+            assert!((dot(away, away) - found).abs() < 1e-14);
+            for k in 0..=40 {
+                for j in 0..=40 {
+                    let other = minus(x, on_face([f64::from(k) / 40.0, f64::from(j) / 40.0]));
+                    assert!(dot(other, other) >= found - 1e-14, "{x:?} {at:?} {k} {j}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn parts_fill_a_flat_face_and_their_slopes_are_gradients() {
+        let flat = [[0.0; 3], [1.2, 0.1, 0.0], [1.0, 1.0, 0.0], [0.1, 0.8, 0.0]];
+        let whole = 0.5 * cross(minus(flat[2], flat[0]), minus(flat[3], flat[1]))[2];
+        let sum: f64 = POINTS.iter().map(|&at| Part::of(flat, at).area).sum();
+        assert!((sum / whole - 1.0).abs() < 1e-14);
+        for at in POINTS {
+            let slopes = Part::of(CORNERS, at).slopes();
+            for corner in 0..4 {
+                for d in 0..3 {
+                    let moved = |by: f64| {
+                        let mut corners = CORNERS;
+                        corners[corner][d] += by;
+                        Part::of(corners, at).area
+                    };
+                    let slope = (moved(1e-6) - moved(-1e-6)) / 2e-6;
+                    assert!((slopes[corner][d] - slope).abs() < 1e-9, "{at:?} {corner} {d}");
+                }
+            }
+        }
+    }
+
+    /// The work of a pressure at the points, on each corner of a square, is that on its bilinear face.
+    #[test]
+    fn points_integrate_what_a_bulge_and_a_slide_do_together() {
+        let exact = [1.0 / 9.0, 1.0 / 18.0, 1.0 / 36.0, 1.0 / 18.0];
+        for (corner, exact) in exact.into_iter().enumerate() {
+            let products = POINTS.map(|at| bilinear(at)[0] * bilinear(at)[corner]);
+            let sum: f64 = products.iter().sum::<f64>() / POINTS.len() as f64;
+            assert!((sum - exact).abs() < 1e-15, "{corner}");
+        }
+    }
+}

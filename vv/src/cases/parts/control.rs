@@ -1,0 +1,51 @@
+//! Stiffness against hourglass modes and against the motion of centroids, as variants of a case: what
+//! the default goes without must not be what holds its answer.
+
+use whipple_solver::space::method::Method;
+
+use crate::cases::{Claim, Claims, Kind, Quantity, Wanted, Weight};
+use crate::record::RunKey;
+
+/// Hourglass modes are resisted, or the motion of centroids against their corners.
+pub(in crate::cases) const HOURGLASS: &str = "hourglass-on";
+pub(in crate::cases) const CENTRING: &str = "centring-on";
+
+/// Stiffness over that of a cell: the usual one of Flanagan and Belytschko's control, not varied here.
+const STIFFNESS: f64 = 0.05;
+
+/// Largest change of an answer.
+const CHANGE: f64 = 0.005;
+
+/// The method of a variant.
+pub(in crate::cases) fn controlled(method: Method, variant: &str) -> Method {
+    match variant {
+        HOURGLASS => Method { hourglass: STIFFNESS, ..method },
+        CENTRING => Method { centring: STIFFNESS, ..method },
+        _ => method,
+    }
+}
+
+/// The runs with either control on.
+pub(in crate::cases) fn runs(plain: &RunKey) -> [RunKey; 2] {
+    [HOURGLASS, CENTRING].map(|variant| plain.clone().variant(variant))
+}
+
+/// That either control moves the answers, norms with their names, by little.
+pub(in crate::cases) fn claims(
+    id: &'static str,
+    plain: &RunKey,
+    answers: &[(&'static str, &str)],
+) -> Vec<Claim> {
+    let source = "issue: the answer changes less than 0.5 %";
+    let issue = Claims::new(id, Kind::Verification, Weight::Must, source);
+    let of = |(name, text): (&'static str, &str)| {
+        runs(plain).map(|key| {
+            issue.claim(
+                format!("{}: change of the {text}, n = {}", key.variant, plain.n),
+                Quantity::Change(key, plain.clone(), name),
+                Wanted::WithinZero(CHANGE),
+            )
+        })
+    };
+    answers.iter().copied().flat_map(of).collect()
+}
