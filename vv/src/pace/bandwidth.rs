@@ -11,7 +11,7 @@ const ENTRY: usize = 24;
 /// Bytes a second of one thread on `a = b + s c` over three arrays of so many bytes together: two read
 /// and one written, as counted by STREAM (McCalpin 1995). The best of three.
 #[must_use]
-pub fn triad(bytes: usize) -> f64 {
+pub(super) fn triad(bytes: usize) -> f64 {
     let n = (bytes / ENTRY).max(1);
     let (mut a, b, c) = (vec![0.0_f64; n], vec![1.0_f64; n], vec![2.0_f64; n]);
     let repeats = MOVED / (ENTRY * n) + 1;
