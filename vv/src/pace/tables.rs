@@ -12,7 +12,7 @@ const NS: f64 = 1e9;
 /// Bytes of a gigabyte.
 const GB: f64 = 1e9;
 /// Bytes that no cache of a processor holds.
-const BEYOND_CACHES: usize = 512_000_000;
+const BEYOND_CACHES: usize = 256_000_000;
 
 fn table(id: &str, caption: &str, columns: Vec<Column>, rows: Vec<Vec<Cell>>) -> Table {
     Table { id: id.into(), caption: caption.into(), columns, rows }
