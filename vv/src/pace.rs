@@ -14,8 +14,7 @@ use whipple_solver::error::{SceneError, StepError};
 use whipple_solver::space::phase::Phase;
 use whipple_solver::space::{Scene, Simulation};
 
-pub use bandwidth::triad;
-pub use tables::{figure, phases, threads, work};
+pub use tables::{figure, machine, phases, work};
 
 /// Parts of a run whose times are kept apart, for the figure.
 const PARTS: u32 = 25;

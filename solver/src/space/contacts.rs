@@ -218,6 +218,10 @@ impl Contacts {
         let (body, place) = mesh.place(i);
         let member = self.admit(mesh, i);
         let hidden = self.flags[member] & EXPOSED == 0;
+        // Without elements that carry the pressure all pairs are listed as it is.
+        if !self.volumes && !hidden {
+            return;
+        }
         let debris = if mesh.whole(i) { 0 } else { DEBRIS };
         self.flags[member] |= EXPOSED | FRESH | debris;
         if hidden {

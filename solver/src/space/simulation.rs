@@ -222,7 +222,7 @@ impl Simulation {
         self.touch(enter);
         enter(Phase::Control);
         self.time = if dt >= until - self.time { until } else { self.time + dt };
-        self.bury();
+        self.bury(enter);
         self.wake();
         self.count();
         self.check()
@@ -414,7 +414,7 @@ impl Simulation {
     }
 
     /// Takes elements that died in the step out of the volumes, and lets their particles touch others.
-    fn bury(&mut self) {
+    fn bury(&mut self, enter: &mut impl FnMut(Phase)) {
         if !self.demand.dying {
             return;
         }
@@ -435,9 +435,12 @@ impl Simulation {
             for group in &mut self.groups {
                 group.look_beyond_the_dead(&self.mesh.ratio);
             }
+            enter(Phase::List);
             self.contacts.open(&self.mesh, &self.state, &self.method);
+            enter(Phase::Springs);
             let u = &mut self.state.u;
             self.spring_heat += self.surfaces.release(&self.mesh, &self.contacts, u);
+            enter(Phase::Control);
         }
     }
 

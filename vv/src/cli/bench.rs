@@ -63,23 +63,18 @@ fn rod(args: &BenchArgs) -> Result<(), Failure> {
         scene.ok_or_else(|| Failure::usage("the long rod is in space"))
     };
     let kernel = Scheme::Particles { preset: Preset::Paper, density: Density::Kernel };
-    let mut paces = Vec::new();
-    for (scheme, variant) in [
-        (Scheme::preset(Preset::Default), ""),
-        (Scheme::preset(Preset::Paper), "as-printed"),
-        (kernel, "as-printed"),
-    ] {
-        say(&format!("long rod, {} cells across, {} ...", args.cells, scheme.label()));
-        paces.push(measure(&scheme.label(), &scene(scheme, variant)?, stretch, 1)?);
-    }
-    say(&format!("{} threads ...", args.threads));
-    let plain = scene(Scheme::preset(Preset::Default), "")?;
-    let more = measure("default", &plain, stretch, args.threads)?;
-    let tables = [
-        pace::work(&paces),
-        pace::phases(&paces),
-        pace::threads(&paces[0], &more, pace::triad(paces[0].bytes)),
-    ];
+    let run = |(scheme, variant): (Scheme, &str), threads: usize| {
+        let (label, cells) = (scheme.label(), args.cells);
+        say(&format!("long rod, {cells} cells across, {label}, threads: {threads} ..."));
+        Ok::<_, Failure>(measure(&label, &scene(scheme, variant)?, stretch, threads)?)
+    };
+    let default = (Scheme::preset(Preset::Default), "");
+    // One after the other, so that the machine is the same.
+    let (one, more) = (run(default, 1)?, run(default, args.threads)?);
+    let paper = run((Scheme::preset(Preset::Paper), "as-printed"), 1)?;
+    let kernel = run((kernel, "as-printed"), 1)?;
+    let paces = [one, paper, kernel];
+    let tables = [pace::work(&paces), pace::phases(&paces), pace::machine(&paces[0], &more)];
     for table in &tables {
         print(&format!("\n{}", grid(table)))?;
         if let Some(out) = &args.out {

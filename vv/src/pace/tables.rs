@@ -2,6 +2,7 @@
 
 use whipple_solver::space::phase::Phase;
 
+use super::bandwidth::triad;
 use super::{Pace, Spent};
 use crate::plots::{Axis, Figure, Panel, Series};
 use crate::report::{Cell, Column, Table};
@@ -10,6 +11,8 @@ use crate::report::{Cell, Column, Table};
 const NS: f64 = 1e9;
 /// Bytes of a gigabyte.
 const GB: f64 = 1e9;
+/// Bytes that no cache of a processor holds.
+const BEYOND_CACHES: usize = 256_000_000;
 
 fn table(id: &str, caption: &str, columns: Vec<Column>, rows: Vec<Vec<Cell>>) -> Table {
     Table { id: id.into(), caption: caption.into(), columns, rows }
@@ -78,28 +81,27 @@ pub fn phases(paces: &[Pace]) -> Table {
     table("pace-phases", caption, columns, rows.collect())
 }
 
-/// What more threads gain, and what memory gives: bytes a second of a triad over as much as a run holds.
+/// What more threads gain, and what the memory of this machine gives one of them.
 #[must_use]
-pub fn threads(one: &Pace, more: &Pace, triad: f64) -> Table {
-    let rows = [
-        ("threads", Cell::count(more.threads as u64)),
-        ("wall of one thread, s", Cell::number(one.wall, 3)),
-        ("wall of all, s", Cell::number(more.wall, 3)),
-        ("gain", Cell::number(one.wall / more.wall, 3)),
-        ("CPU of all over CPU of one", Cell::number(more.cpu / one.cpu, 3)),
-        ("memory held, MB", Cell::number(1e-6 * one.bytes as f64, 3)),
-        ("triad over as much, GB/s", Cell::number(triad / GB, 3)),
-        (
-            "all that is held, read and written once, ns/update",
-            Cell::number(NS * 2.0 * one.bytes as f64 / one.particles as f64 / triad, 3),
-        ),
-        ("one update, ns", Cell::number(NS / one.rate(), 3)),
+pub fn machine(one: &Pace, more: &Pace) -> Table {
+    let [held, beyond] = [one.bytes, BEYOND_CACHES].map(|bytes| triad(bytes) / GB);
+    let rows: [(String, Cell); 10] = [
+        ("threads".into(), Cell::count(more.threads as u64)),
+        ("wall of one thread, s".into(), Cell::number(one.wall, 3)),
+        (format!("wall of {}, s", more.threads), Cell::number(more.wall, 3)),
+        ("gain".into(), Cell::number(one.wall / more.wall, 3)),
+        (format!("CPU of {} over CPU of one", more.threads), Cell::number(more.cpu / one.cpu, 3)),
+        ("CPU of one over its wall".into(), Cell::number(one.cpu / one.wall, 3)),
+        ("memory held, MB".into(), Cell::number(1e-6 * one.bytes as f64, 3)),
+        ("triad over as much, GB/s".into(), Cell::number(held, 3)),
+        (format!("triad over {} MB, GB/s", BEYOND_CACHES / 1_000_000), Cell::number(beyond, 3)),
+        ("one update, ns".into(), Cell::number(NS / one.rate(), 3)),
     ];
     let rows = rows.map(|(name, cell)| vec![name.into(), cell]).to_vec();
-    let caption = "Threads by time on the wall, and the memory of this machine, one thread. A step \
-                   goes through memory twice.";
+    let caption = "Threads by time on the wall, and memory by one thread. Where the CPU time of one \
+                   thread is well below its wall the machine was busy, and the gain says little.";
     let columns = vec![Column::text("what"), Column::number("measured", "")];
-    table("pace-threads", caption, columns, rows)
+    table("pace-machine", caption, columns, rows)
 }
 
 /// Where the time goes over the run.

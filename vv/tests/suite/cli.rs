@@ -224,3 +224,28 @@ fn completions_are_printed() {
         assert!(said.out.contains("whipple"), "{shell}");
     }
 }
+
+/// `bench rod` prints its tables and leaves them with the figure. No time is asserted.
+#[test]
+fn bench_measures_the_rod() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let said = said(folder.path(), &["bench", "rod", "--steps", "3", "--out", "out"]);
+    assert_eq!(said.code, Some(0), "{}", said.err);
+    for scheme in ["default", "paper", "paper + kernel"] {
+        let rows = said.out.lines().filter(|line| line.trim_start().starts_with(scheme));
+        assert!(rows.count() >= 2, "{scheme}: {}", said.out);
+    }
+    let read = |name: &str| std::fs::read_to_string(folder.path().join("out").join(name));
+    let work = read("pace-work.csv").expect("a table");
+    let head = work.lines().next().expect("a head");
+    assert!(head.contains("1e6 updates/s") && head.contains("pairs acting"), "{head}");
+    assert_eq!(work.lines().count(), 1 + 3, "{work}");
+    for name in ["pace-phases.csv", "pace-machine.csv", "pace.svg"] {
+        assert!(!read(name).expect("a file").is_empty(), "{name}");
+    }
+    let refused = crate::common::said(folder.path(), &["bench", "rod", "--steps", "0"]);
+    assert_eq!(
+        (refused.code, refused.err.as_str()),
+        (Some(2), "error: --steps 0 measures nothing\n")
+    );
+}
