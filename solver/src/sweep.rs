@@ -54,7 +54,7 @@ impl<P: Physics<1>> Sweep<'_, P> {
                     // vector units.
                     match law.far() {
                         Some(law) => {
-                            self.lanes::<K>((&lanes, 1, false), pairs, law, &mut deals, of)
+                            self.lanes::<K>((&lanes, 1, false), pairs, law, &mut deals, of);
                         }
                         None => {
                             self.lanes::<K>((&lanes, 1, false), pairs, law.near(), &mut deals, of);

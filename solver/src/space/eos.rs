@@ -58,7 +58,7 @@ const LAST: f64 = 0.85;
 const TENFOLD: f64 = 0.9;
 
 /// Terms of the series of the isentrope: enough for one per cent of its energy at `s eta = 0.6`.
-const TERMS: usize = 12;
+const TERMS: usize = 10;
 
 /// Lowest sound speed over the reference one, squared.
 const LEAST_SOUND: f64 = 0.25;
@@ -169,11 +169,12 @@ impl MieGruneisen {
         let pressure = (cold + product * u).max(zero);
         let sound = d_cold + pressure * product * inverse * inverse;
         let least = LEAST_SOUND * self.bulk / self.rho_0;
-        let mut isentrope = zero;
-        for term in self.isentrope.into_iter().rev() {
-            isentrope = (isentrope + term) * capped;
+        // In powers of the square: half as long a chain of operations.
+        let (square, mut isentrope) = (capped * capped, zero);
+        for &[odd, even] in self.isentrope.as_chunks().0.iter().rev() {
+            isentrope = isentrope * square + (capped * even + odd);
         }
-        let theta = (u * (1.0 / self.c_v) + isentrope).max(zero) + self.theta_0;
+        let theta = (u * (1.0 / self.c_v) + isentrope * capped).max(zero) + self.theta_0;
         Response { pressure, sound_squared: sound.max(F::splat(least)), theta }
     }
 }

@@ -301,11 +301,13 @@ fn c_of<F: Lanes>(plastic: &Sym<F>) -> Sym<F> {
 }
 
 /// The plastic strain with the determinant of `C^p` brought back to one, Eq. (17): the flow rule keeps it
-/// but for the square of a finite step.
+/// but for the square of a finite step. The inverse cube root is its series about one: every sweep begins
+/// near it, and the last at it.
 #[inline(always)]
 fn isochoric<F: Lanes>(plastic: &Sym<F>) -> Sym<F> {
     let c = c_of(plastic);
-    let scale = determinant(&c).inverse_cube_root();
+    let lost = F::splat(1.0) - determinant(&c);
+    let scale = ((lost * (14.0 / 81.0) + 2.0 / 9.0) * lost + 1.0 / 3.0) * lost + 1.0;
     each!(k => (c[k] * scale - if k < 3 { 1.0 } else { 0.0 }) * 0.5)
 }
 

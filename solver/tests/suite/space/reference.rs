@@ -1076,12 +1076,12 @@ fn eos(solid: &Solid, rho: f64, u: f64) -> (f64, f64, f64) {
     (pressure, squared.sqrt(), solid.theta_0 + (u / solid.c_v + isentrope(solid, eta)).max(0.0))
 }
 
-/// `theta_s - theta_0 - u_s / c_v` on the isentrope through the reference state: twelve terms of
+/// `theta_s - theta_0 - u_s / c_v` on the isentrope through the reference state: ten terms of
 /// `theta_s = theta_0 exp(Gamma_o eta)` and of the solution of
 /// `u' = c0^2 eta (1 - Gamma_o eta / 2) / (1 - s eta)^2 + Gamma_o u`.
 fn isentrope(solid: &Solid, eta: f64) -> f64 {
     let (mut heating, mut energy, mut sum) = (solid.theta_0, 0.0, 0.0);
-    for n in 1..=12 {
+    for n in 1..=10 {
         let k = f64::from(n) - 1.0;
         heating *= solid.gamma / f64::from(n);
         let shock =

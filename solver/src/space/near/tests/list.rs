@@ -132,7 +132,7 @@ fn same_list_on_any_number_of_threads() {
         let pool = ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         let mut list = PairList::new();
         pool.install(|| {
-            list.rebuild(&cloud.points_in_lattice(), REACH, |i, j| !(i ^ j).is_multiple_of(7))
+            list.rebuild(&cloud.points_in_lattice(), REACH, |i, j| !(i ^ j).is_multiple_of(7));
         });
         (list.pairs().to_vec(), list.counters())
     };
