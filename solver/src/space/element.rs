@@ -656,7 +656,7 @@ impl Group {
         let mut most = F::zero();
         for slot in 0..8 {
             let (r, w) = seen.bond(slot);
-            let square = dot(&r, &r);
+            let square = dot(&r, &r).max(F::splat(f64::MIN_POSITIVE));
             let near = square.lt(reach) & self.live;
             let approach = (-dot(&r, &w)).max(F::zero()).keep(near);
             let inverse = F::splat(1.0) / square;
@@ -692,7 +692,8 @@ impl Group {
         let mut most = zero;
         for slot in 0..8 {
             let (r, w) = seen.bond(slot);
-            let inverse = F::splat(1.0) / dot(&r, &r);
+            // The centroid of a dead element may lie on a corner.
+            let inverse = F::splat(1.0) / dot(&r, &r).max(F::splat(f64::MIN_POSITIVE));
             // Jumps times the separation: of the bond, of the one before and of the one beyond.
             let own = -dot(&r, &w);
             let before = dot(&r, &sub(&seen.v[7 - slot], &seen.v[CENTRE]));
