@@ -367,9 +367,9 @@ impl Simulation {
         if self.method.density == Density::Kernel {
             let rho = &mut self.derived.rho;
             self.counters.kernel_evaluations += self.contacts.sum_density(&self.mesh, rho);
-            let sane = self.allowed.sane;
+            let Allowed { sane, floored, .. } = self.allowed;
             self.respond(Stage::State(self.dt));
-            self.allowed.sane = sane;
+            self.allowed = Allowed { sane, floored, ..self.allowed };
         }
         self.touched.fill(false);
     }
@@ -422,6 +422,7 @@ impl Simulation {
         self.counters.steps += 1;
         self.counters.particle_steps += self.moving() as u64;
         self.counters.pairs += self.contacts.pairs() as u64;
+        self.counters.floored += u64::from(self.allowed.floored);
     }
 
     /// Names the particle that is no longer a number.
