@@ -19,4 +19,7 @@ pub struct Counters {
     pub pairs: u64,
     /// Evaluations of the kernel function.
     pub kernel_evaluations: u64,
+    /// Particles, summed over the steps, whose density the lowest one of their equation of state held.
+    #[serde(default)]
+    pub floored: u64,
 }

@@ -126,7 +126,9 @@ fn may_touch<'a>(
         let Some(place) = place.filter(|_| body[a] == body[b]) else { return true };
         // Live material carries its own pressure: only the far ends of a body that folds touch.
         let span = (0..3).map(|d| (place[a][d] - place[b][d]).abs()).max();
-        let together = span <= Some(FOLD) && (flags[a] | flags[b]) & DEBRIS == 0;
+        // A gas flows, and what stands side by side in it may come from far away.
+        let near = span <= Some(FOLD) || mesh.bodies[body[a] as usize].is_gas();
+        let together = near && (flags[a] | flags[b]) & DEBRIS == 0;
         !together && !mesh.bonded(body[a] as usize, place[a], place[b])
     }
 }
@@ -576,11 +578,12 @@ impl View<'_> {
         }
         let distance = square.sqrt();
         let ratio = [self.derived.rho[i] / body[0].rho_0, self.derived.rho[j] / body[1].rho_0];
+        let thin = [0, 1].map(|k| body[k].eos.thinning(ratio[k]));
         // Of the first on the ellipsoid of the second, Eqs. (9), (35), and the other way round.
         let row = match self.kernel {
             None => [
-                body[0].rho_0 * self.row(distance, body[1].length, ratio[1]),
-                body[1].rho_0 * self.row(distance, body[0].length, ratio[0]),
+                thin[0] * body[0].rho_0 * self.row(distance, body[1].length, ratio[1]),
+                thin[1] * body[1].rho_0 * self.row(distance, body[0].length, ratio[0]),
             ],
             Some(kernel) => {
                 let row = |k: usize, i: usize, length: f64| {

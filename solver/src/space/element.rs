@@ -25,8 +25,8 @@ pub const FACES: [[usize; 4]; 6] =
 /// Slot of the centroid.
 const CENTRE: usize = 8;
 
-/// Largest stretch of an element that counts as a volume.
-const TORN: f64 = 4.0;
+/// Smallest pyramid, over its share of the cell, to which the elastic pressure rises.
+const SLIVER: f64 = 0.25;
 
 /// Steepness of the damping of receding bonds: it is whole from where the closing neighbours, over the
 /// bond's own jump, reach half the inverse of this and of the limiter's.
@@ -164,6 +164,13 @@ impl<F: Lanes> Pyramid<F> {
         let (e, g) = (sub(&v[c], &v[a]), sub(&v[d], &v[b]));
         let turned = dot(&e, &cross(&self.g, &self.w)) + dot(&g, &cross(&self.w, &self.e));
         (dot(&w, &self.area) + turned) * (1.0 / 6.0)
+    }
+
+    /// Square of the gradient of the volume, each particle's part over its share of the cell's mass.
+    #[inline(always)]
+    fn steepness(&self) -> F {
+        let (gw, we) = (cross(&self.g, &self.w), cross(&self.w, &self.e));
+        dot(&self.area, &self.area) * (1.0 / 6.0) + (dot(&gw, &gw) + dot(&we, &we)) * (8.0 / 9.0)
     }
 
     /// Adds `push` times the gradient of the volume.
@@ -500,15 +507,16 @@ impl Group {
             self.carry((laws, read), &mut push);
             let v: [V3<F>; 9] = self.gather_vector(read.velocity);
             let sound: [F; 9] = self.gather(read.sound);
-            if laws.method.visc_volume > 0.0 {
-                self.stiffen(&pyramids, &opening, (&v, body, laws), &mut push);
-            }
             rate_squared += extent.frequency_squared(&sound);
             let seen = Seen { y: &y, v: &v, sound: &sound, theta: &theta };
             damping = match laws.method.viscosity {
                 Viscosity::Limited => self.limited(&seen, (body, laws, read), &mut loads),
                 Viscosity::Pairwise => self.pairwise(&seen, (body, laws), &mut loads),
             };
+            if self.stiff.is_some() {
+                let of = (&seen, body, &laws.method);
+                rate_squared += self.stiffen(&pyramids, (extent.volume, &opening), of, &mut push);
+            }
         }
         for k in 0..6 {
             pyramids[k].push(FACES[k], push[k], &mut loads.force);
@@ -537,28 +545,32 @@ impl Group {
         }
     }
 
-    /// Viscous pressure of pyramids that collapse: `rho q w^2` with the closing speed `w` over their
-    /// height (decision 0013).
+    /// What pyramids press with beside the pressure of their particles. Returns the square of the
+    /// frequency that it adds.
     #[inline(always)]
     fn stiffen<F: Lanes>(
         &mut self,
         pyramids: &[Pyramid<F>; 6],
-        opening: &[F; 6],
-        (v, body, laws): (&[V3<F>; 9], &Body, &Laws),
+        (volume, opening): (F, &[F; 6]),
+        (seen, body, method): (&Seen<'_, F>, &Body, &Method),
         push: &mut [F; 6],
-    ) {
-        for (k, face) in FACES.into_iter().enumerate() {
-            let closing = (-pyramids[k].rate(v, face)).max(F::zero()).keep(self.live);
-            let volume = (opening[k] + 1.0).max(F::splat(0.05));
-            let factor = 9.0 * laws.method.visc_volume * body.rho_0;
-            let area = dot(&pyramids[k].area, &pyramids[k].area).max(F::splat(f64::MIN_POSITIVE));
-            let square = closing * closing / area;
-            let q = square * factor / (volume * volume);
-            if let Some(stiff) = &mut self.stiff {
-                stiff[k] = q.pack();
-            }
-            push[k] += q;
+    ) -> F {
+        let mut own = [F::zero(); 6];
+        let mut rate_squared = F::zero();
+        if method.visc_volume > 0.0 {
+            collapse(pyramids, opening, (seen.v, body, method), &mut own);
         }
+        if body.zonal(method) > 0.0 {
+            rate_squared = crowd(pyramids, (volume, opening), (seen, body, method), &mut own);
+        }
+        for (k, own) in own.into_iter().enumerate() {
+            let own = own.keep(self.live);
+            push[k] += own;
+            if let Some(stiff) = &mut self.stiff {
+                stiff[k] = own.pack();
+            }
+        }
+        rate_squared
     }
 
     /// Marks lanes that fail, and those that cease to be volumes after this step.
@@ -578,12 +590,13 @@ impl Group {
             widest = widest.max(*o);
         }
         let crushed = smallest.lt(F::splat(solid.crushed - 1.0))
+            | extent.volume.lt(F::splat(solid.least * body.cell_volume))
             | motion.jacobian.lt(F::splat(solid.compression));
         let tension = (F::splat(1.0) - F::of(self.damage)) * solid.bulk * widest;
         let pulled = tension.gt(F::splat(solid.spall));
         let failing = solid.spent(F::of(self.strain), theta) | crushed | pulled;
         self.failed |= failing & self.live;
-        let stretched = motion.stretch_squared().gt(F::splat(TORN * TORN));
+        let stretched = motion.stretch_squared().gt(F::splat(solid.torn * solid.torn));
         let open = motion.jacobian.gt(F::splat(OPEN)) & self.failed;
         // Faces come doubled.
         let [sound, failed] = solid.flat.map(|share| (0.5 * share * solid.edge).powi(2));
@@ -678,7 +691,7 @@ impl Group {
         let mut most = F::zero();
         for slot in 0..8 {
             let (r, w) = seen.bond(slot);
-            let square = dot(&r, &r);
+            let square = dot(&r, &r).max(F::splat(f64::MIN_POSITIVE));
             let near = square.lt(reach) & self.live;
             let approach = (-dot(&r, &w)).max(F::zero()).keep(near);
             let inverse = F::splat(1.0) / square;
@@ -718,7 +731,8 @@ impl Group {
         let mut most = zero;
         for slot in 0..8 {
             let (r, w) = seen.bond(slot);
-            let inverse = F::splat(1.0) / dot(&r, &r);
+            // The centroid of a dead element may lie on a corner.
+            let inverse = F::splat(1.0) / dot(&r, &r).max(F::splat(f64::MIN_POSITIVE));
             // Jumps times the separation: of the bond, of the one before and of the one beyond.
             let own = -dot(&r, &w);
             let before = dot(&r, &sub(&seen.v[7 - slot], &seen.v[CENTRE]));
@@ -852,6 +866,51 @@ impl Group {
         let glass = Hourglass::of(method, body).map_or(F8::ZERO, |glass| glass.energy(&u));
         [shear, tension, glass].map(|energy| (energy * intact).keep(self.live))
     }
+}
+
+/// Viscous pressure of pyramids that collapse: `rho q w^2` with the closing speed `w` over their
+/// height (decision 0013).
+#[inline(always)]
+fn collapse<F: Lanes>(
+    pyramids: &[Pyramid<F>; 6],
+    opening: &[F; 6],
+    (v, body, method): (&[V3<F>; 9], &Body, &Method),
+    own: &mut [F; 6],
+) {
+    let factor = 9.0 * method.visc_volume * body.rho_0;
+    for (k, face) in FACES.into_iter().enumerate() {
+        let closing = (-pyramids[k].rate(v, face)).max(F::zero());
+        let volume = (opening[k] + 1.0).max(F::splat(0.05));
+        let area = dot(&pyramids[k].area, &pyramids[k].area).max(F::splat(f64::MIN_POSITIVE));
+        own[k] += closing * closing / area * factor / (volume * volume);
+    }
+}
+
+/// Elastic pressure of pyramids of gas that are denser than their cell, `rho c^2 (V_k / V - 1)` with
+/// the volume `V` of a pyramid and its share `V_k` of the cell (decision 0017). Returns the square of
+/// its frequency.
+#[inline(always)]
+fn crowd<F: Lanes>(
+    pyramids: &[Pyramid<F>; 6],
+    (volume, opening): (F, &[F; 6]),
+    (seen, body, method): (&Seen<'_, F>, &Body, &Method),
+    own: &mut [F; 6],
+) -> F {
+    let mass = body.rho_0 * body.cell_volume;
+    let volume = volume.max(F::splat(body.solid.least * body.cell_volume));
+    let corners = ((seen.sound[0] + seen.sound[1]) + (seen.sound[2] + seen.sound[3]))
+        + ((seen.sound[4] + seen.sound[5]) + (seen.sound[6] + seen.sound[7]));
+    let sound = seen.sound[CENTRE] * 0.5 + corners * 0.0625;
+    let modulus = sound * sound * (mass * body.zonal(method)) / volume;
+    let mut fastest = F::zero();
+    for k in 0..6 {
+        let even = volume * (body.pyramids[k] / body.cell_volume);
+        let thick = ((opening[k] + 1.0) * body.pyramids[k]).max(even * SLIVER);
+        own[k] += modulus * (even / thick - 1.0);
+        fastest = fastest.max(pyramids[k].steepness() * modulus * even / (thick * thick));
+    }
+    // Two opposite pyramids act on the same particles.
+    fastest * (2.0 / mass)
 }
 
 /// Tension of a pyramid, Eq. (25), with the bracket (26).

@@ -60,6 +60,9 @@ const TENFOLD: f64 = 0.9;
 /// Terms of the series of the isentrope: enough for one per cent of its energy at `s eta = 0.6`.
 const TERMS: usize = 10;
 
+/// Lowest density of a solid over its reference density.
+const THINNEST: f64 = 0.3;
+
 /// Lowest sound speed over the reference one, squared.
 const LEAST_SOUND: f64 = 0.25;
 
@@ -107,6 +110,27 @@ impl Eos {
         match self {
             Self::MieGruneisen(solid) => solid.c_v,
             Self::IdealGas(gas) => gas.c_v,
+        }
+    }
+
+    /// Lowest density, over the reference density, that particles are given. A solid is debris there,
+    /// and its law is none of a vapour; a gas law holds at any density, which only has to stay positive.
+    #[must_use]
+    pub fn rarest(&self) -> f64 {
+        match self {
+            Self::MieGruneisen(_) => THINNEST,
+            Self::IdealGas(_) => f64::EPSILON,
+        }
+    }
+
+    /// Factor of the density rates (36) of contacts at a density over the reference density: as printed
+    /// they are those of a solid, and would take a thin gas through zero.
+    #[inline(always)]
+    #[must_use]
+    pub fn thinning(&self, ratio: f64) -> f64 {
+        match self {
+            Self::MieGruneisen(_) => 1.0,
+            Self::IdealGas(_) => ratio.min(1.0),
         }
     }
 

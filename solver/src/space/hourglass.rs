@@ -40,10 +40,11 @@ pub struct Hourglass {
 }
 
 impl Hourglass {
-    /// As a method has it; none if it has none.
+    /// As a method has it; none if it has none, and none of a gas, whose modes have no elastic modulus.
     #[inline(always)]
     pub fn of(method: &Method, body: &Body) -> Option<Self> {
-        if method.hourglass == 0.0 && method.centring == 0.0 {
+        let none = method.hourglass == 0.0 && method.centring == 0.0;
+        if none || body.solid.sound == 0.0 {
             return None;
         }
         let sound = body.solid.sound;

@@ -10,6 +10,7 @@ use std::ops::Range;
 use super::eos::Eos;
 use super::lanes::{F8, LANES, Lanes, Mask};
 use super::lattice::{CENTROID_SHARE, Lattice};
+use super::method::Method;
 use super::scene::{Body as BodyData, Hold, Scene, Wall};
 use super::strength::Solid;
 use crate::method::Viscosity;
@@ -86,7 +87,7 @@ pub struct Group {
     pub stress: [F8; 6],
     /// Viscous force over separation of the eight bonds.
     pub bonds: [F8; 8],
-    /// Viscous pressure of the six pyramids, if there is any.
+    /// Pressure that the six pyramids have beside that of the particles, if there is any.
     pub stiff: Option<Box<[F8; 6]>>,
     /// First of the centroids beyond each corner, lane by lane.
     pub beyond: [u32; 8],
@@ -198,8 +199,11 @@ impl Mesh {
             mesh.group(&body, k, &mut groups);
             mesh.bodies.push(body);
         }
-        if scene.method.visc_volume > 0.0 {
-            groups.iter_mut().for_each(|group| group.stiff = Some(Box::default()));
+        for group in &mut groups {
+            let zonal = mesh.bodies[usize::from(group.body)].zonal(&scene.method);
+            if scene.method.visc_volume > 0.0 || zonal > 0.0 {
+                group.stiff = Some(Box::default());
+            }
         }
         groups.shrink_to_fit();
         mesh.cut(&nodes);
@@ -444,6 +448,21 @@ impl Body {
     pub fn damping(&self) -> f64 {
         let mass = 0.5 * self.rho_0 * self.cell_volume;
         2.0 / 3.0 * 8.0 / mass
+    }
+
+    /// Whether it is a gas: its elements carry no tension, and it has no shape of its own.
+    #[inline(always)]
+    #[must_use]
+    pub fn is_gas(&self) -> bool {
+        self.solid.bulk == 0.0
+    }
+
+    /// Stiffness of pyramids against being denser than their cell, over that of the gas; a solid has
+    /// that of its hourglass modes instead.
+    #[inline(always)]
+    #[must_use]
+    pub fn zonal(&self, method: &Method) -> f64 {
+        if self.is_gas() { method.hourglass } else { 0.0 }
     }
 
     /// Sound speed that a form of the viscosity sees of a particle with this one: the printed form has

@@ -55,7 +55,8 @@ pub struct Method {
     /// Part of the opposite corners in the pressure of a pyramid (decision 0013): 1 moves nodes and
     /// centroids alike in a smooth field, 0 is the plain mean.
     pub balance: f64,
-    /// Stiffness of the hourglass modes of elements, over that of a cell; zero for none.
+    /// Stiffness of the hourglass modes of elements, over that of a cell; zero for none. In gas, of
+    /// pyramids that are denser than their cell.
     pub hourglass: f64,
     /// Stiffness of the motion of centroids against corners, over that of a cell; zero for none.
     pub centring: f64,

@@ -388,7 +388,7 @@ impl Simulation {
     }
 
     /// Counters, and the piece that decides the next step.
-    fn counts(&self) -> [u64; 8] {
+    fn counts(&self) -> [u64; 9] {
         let c = &self.counters;
         [
             c.steps,
@@ -398,14 +398,25 @@ impl Simulation {
             c.work_sweeps,
             c.pairs,
             c.kernel_evaluations,
+            c.floored,
             self.allowed.piece as u64,
         ]
     }
 
     fn set_counts(&mut self, counts: &[u64]) {
         let Ok(
-            [steps, particle_steps, stages, sweeps, work_sweeps, pairs, kernel_evaluations, piece],
-        ) = <[u64; 8]>::try_from(counts)
+            [
+                steps,
+                particle_steps,
+                stages,
+                sweeps,
+                work_sweeps,
+                pairs,
+                kernel_evaluations,
+                floored,
+                piece,
+            ],
+        ) = <[u64; 9]>::try_from(counts)
         else {
             return;
         };
@@ -417,6 +428,7 @@ impl Simulation {
             work_sweeps,
             pairs,
             kernel_evaluations,
+            floored,
         };
         self.allowed.piece = piece as usize;
     }

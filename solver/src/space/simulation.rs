@@ -390,9 +390,9 @@ impl Simulation {
             enter(Phase::Kernel);
             let rho = &mut self.derived.rho;
             self.counters.kernel_evaluations += self.contacts.sum_density(&self.mesh, rho);
-            let sane = self.allowed.sane;
+            let Allowed { sane, floored, .. } = self.allowed;
             self.respond(Stage::State(self.dt));
-            self.allowed.sane = sane;
+            self.allowed = Allowed { sane, floored, ..self.allowed };
         }
         self.touched.fill(false);
     }
@@ -448,6 +448,7 @@ impl Simulation {
         self.counters.steps += 1;
         self.counters.particle_steps += self.moving() as u64;
         self.counters.pairs += self.contacts.pairs() as u64;
+        self.counters.floored += u64::from(self.allowed.floored);
     }
 
     /// Names the particle that is no longer a number.

@@ -14,8 +14,12 @@ const CRUSHED: f64 = 0.2;
 /// Smallest thickness of a sound and of a failed element of a solid, over its shortest edge.
 const FLAT: [f64; 2] = [0.2, 0.35];
 
-/// Smallest pyramid and thickness of a gas's: a third of what the spherical Noh shock makes of it.
-const GAS: [f64; 2] = [0.005, 0.05];
+/// Largest stretch of an element of a solid that counts as a volume.
+const TORN: f64 = 4.0;
+
+/// Smallest volume of an element of a gas, which has no largest compression, and its thickness: what
+/// is thinner would set the time step.
+const GAS: [f64; 2] = [1e-3, 0.005];
 
 /// Sweeps of the return map after which it gives up; two are enough nearly always.
 const SWEEPS: usize = 20;
@@ -47,6 +51,10 @@ pub struct Solid {
     release: Release,
     /// Smallest pyramid, over its reference volume, of an element that counts as a volume.
     pub crushed: f64,
+    /// Smallest volume of such an element, over its reference volume.
+    pub least: f64,
+    /// Largest stretch of such an element.
+    pub torn: f64,
     /// Thickness, over the shortest edge at the start, below which a sound and a failed element cease
     /// to count as volumes.
     pub flat: [f64; 2],
@@ -73,7 +81,9 @@ impl Solid {
             compression: material.failure.compression,
             spall: or_never(material.failure.spall.filter(|_| method.spall)),
             release: method.release,
-            crushed: if bulk > 0.0 { CRUSHED } else { GAS[0] },
+            crushed: if bulk > 0.0 { CRUSHED } else { f64::NEG_INFINITY },
+            least: if bulk > 0.0 { CRUSHED } else { GAS[0] },
+            torn: if bulk > 0.0 { TORN } else { f64::INFINITY },
             flat: if bulk > 0.0 { FLAT } else { [GAS[1]; 2] },
             sound: ((bulk + 4.0 / 3.0 * mu) / material.density).sqrt(),
             edge: lattice.size.iter().copied().fold(f64::INFINITY, f64::min),

@@ -6,13 +6,6 @@ use super::lanes::{LANES, Lanes, Mask};
 use super::mesh::{Body, Mesh};
 use super::simulation::CROSSING;
 
-/// Lowest density of a solid over the reference density: what is thinner is vapour, for which the
-/// equation of state holds no longer (decision 0012).
-const THINNEST: f64 = 0.3;
-
-/// The same of a gas, which has no end but must not vanish.
-const RAREST: f64 = 1e-9;
-
 /// Largest relative change of the density in a step, under pressure.
 const DENSEST_STEP: f64 = 0.08;
 
@@ -39,12 +32,14 @@ pub struct Allowed {
     pub density: f64,
     /// Whether everything is a number.
     pub sane: bool,
+    /// Particles that the lowest density of their equation of state stopped from getting thinner.
+    pub floored: u32,
 }
 
 impl Allowed {
     /// By nothing.
     pub const ANYTHING: Self =
-        Self { sound: f64::INFINITY, piece: 0, density: f64::INFINITY, sane: true };
+        Self { sound: f64::INFINITY, piece: 0, density: f64::INFINITY, sane: true, floored: 0 };
 
     /// The stricter.
     #[must_use]
@@ -56,6 +51,7 @@ impl Allowed {
             density: self.density.min(other.density),
             piece: if first { self.piece } else { other.piece },
             sane: self.sane && other.sane,
+            floored: self.floored + other.floored,
         }
     }
 }
@@ -161,12 +157,13 @@ impl Particles<'_> {
             touched: mask(&self.touched[i..]),
             at,
         };
-        let (now, volume, sane) = match self.stage {
+        let (now, volume, ended) = match self.stage {
             Stage::Whole(kick, dt) => own.end_step(columns, kick, dt, false),
             Stage::Moved(kick, dt) => own.end_step(columns, kick, dt, true),
-            Stage::State(dt) => (own.state(columns, dt), F::zero(), true),
+            Stage::State(dt) => (own.state(columns, dt), F::zero(), (true, 0)),
         };
-        Allowed { sane, piece, ..own.evaluate(columns, &now, (volume, self.volumes)) }
+        let (sane, floored) = ended;
+        Allowed { sane, floored, piece, ..own.evaluate(columns, &now, (volume, self.volumes)) }
     }
 }
 
@@ -189,7 +186,7 @@ struct Now<F> {
 impl<F: Lanes> Eight<'_, F> {
     /// Ends the last step, Eqs. (36), (58)-(59), (74) and (76); the density of held particles follows their
     /// volumes instead of (36). Returns what is known at the time of the positions, the change of the
-    /// volume, and whether all is finite.
+    /// volume, whether all is finite, and how many are too thin.
     #[inline(always)]
     fn end_step(
         &self,
@@ -197,10 +194,9 @@ impl<F: Lanes> Eight<'_, F> {
         kick: f64,
         dt: f64,
         keep_rates: bool,
-    ) -> (Now<F>, F, bool) {
+    ) -> (Now<F>, F, (bool, u32)) {
         let at = self.at;
-        let thinnest = if self.body.solid.bulk > 0.0 { THINNEST } else { RAREST };
-        let least = F::splat(thinnest * self.body.rho_0);
+        let least = F::splat(self.body.eos.rarest() * self.body.rho_0);
         let volume_rate = F::load(sums.volume_rate, at);
         let mut rho_rate = F::load(sums.rho_rate, at) - F::load(derived.dilate, at) * volume_rate;
         let alone = self.ratio.lt(F::splat(1e-9)) & !self.touched;
@@ -209,7 +205,9 @@ impl<F: Lanes> Eight<'_, F> {
         }
         let work = F::load(sums.heat, at) - F::load(derived.grip, at) * volume_rate * kick;
         let gain = work / self.mass;
-        let rho = (F::load(state.rho, at) + rho_rate * kick).max(least);
+        let rho = F::load(state.rho, at) + rho_rate * kick;
+        let floored = rho.lt(least).count_ones();
+        let rho = rho.max(least);
         let u = F::load(state.u, at) + gain;
         let u_rate = if kick > 0.0 { gain * (1.0 / kick) } else { F::zero() };
         rho.store(state.rho, at);
@@ -239,7 +237,7 @@ impl<F: Lanes> Eight<'_, F> {
         // Zero times whatever is no number is none either.
         let sane = (finite * 0.0).sum() == 0.0;
         let rho = (rho + rho_rate * (0.5 * dt)).max(least);
-        (Now { rho, u: u + u_rate * (0.5 * dt), rho_rate }, volume, sane)
+        (Now { rho, u: u + u_rate * (0.5 * dt), rho_rate }, volume, (sane, floored))
     }
 
     /// The same at a density known, with the rates that [`Stage::Moved`] has left.
@@ -269,7 +267,7 @@ impl<F: Lanes> Eight<'_, F> {
         let (at, rho) = (self.at, now.rho);
         let response = self.body.eos.respond(rho, now.u);
         let reference = self.mass * (1.0 / self.body.rho_0);
-        let least = reference * (SMALLEST * self.body.solid.crushed);
+        let least = reference * (SMALLEST * self.body.solid.least);
         let whole = (reference + self.ratio * volume).max(least);
         let dilate = (rho / whole).keep(self.ratio.gt(zero));
         let per_density = response.pressure * self.mass / (rho * rho);

@@ -3,11 +3,11 @@
 use whipple_solver::method::Preset;
 use whipple_solver::space::Simulation;
 use whipple_solver::space::method::Method;
-use whipple_solver::space::scene::{Body, EosData, Failure, Material, Scene, Shape, Side};
+use whipple_solver::space::scene::{Body, Scene, Shape, Side};
 use whipple_solver::units::Units;
 
 use super::parts::shells::{edge, outward, radius, shells};
-use super::parts::{Columns, mirror, moments, motion, resting};
+use super::parts::{Columns, gas, mirror, moments, motion, resting};
 use super::{Case, Claim, Claims, Kind, Level, Quantity, Wanted, Weight};
 use crate::exact::Geometry;
 use crate::exact::noh::Noh as Exact;
@@ -25,8 +25,8 @@ const GAMMA: f64 = 5.0 / 3.0;
 const STOP: f64 = 0.6;
 /// Internal energy of the cold gas, over that behind the shock.
 const COLD: f64 = 1e-6;
-/// Coefficient of the viscous pressure of pyramids, which cold gas needs (decision 0013).
-const VOLUME_VISCOSITY: f64 = 2.0;
+/// Stiffness of pyramids against being denser than their cell: that of the gas (decision 0017).
+const ZONAL: f64 = 1.0;
 /// Cells along what is left of a direction without flow.
 const ACROSS: usize = 2;
 /// Radius up to which errors are measured.
@@ -39,7 +39,7 @@ const CYLINDRICAL: &str = "cylindrical";
 const SPHERICAL: &str = "spherical";
 const VARIANTS: [&str; 3] = ["", CYLINDRICAL, SPHERICAL];
 /// Cells along the unit of length.
-const SIZES: [usize; 3] = [8, 12, 16];
+const SIZES: [usize; 3] = [8, 16, 24];
 
 fn geometry(variant: &str) -> Geometry {
     match variant {
@@ -78,9 +78,9 @@ impl Case for NohSpace {
         "Cold gas runs at speed 1 onto a plane, an axis or a centre, where a shock stands off at a third \
          of that speed: a column, a quarter of a slab and an octant of a cube between mirrors, of edge 1, \
          to t = 0.6. Compression behind the shock is 4, 16 and 64. Velocities are set in the state: no \
-         scene states them. The viscous pressure of pyramids is on (`visc_volume` 2), as cold gas \
-         needs it. Elements compressed more than five times are no volumes any more (decision 0012), so \
-         that on the axis and in the centre the density is that of contacts. Density is \
+         scene states them. Pyramids have the stiffness of the gas against being denser than their \
+         cell (`hourglass` 1, decision 0017). Cells on the axis and in the centre end as slivers: the \
+         few that die are counted, and their particles have the density of contacts. Density is \
          averaged from 0.3 to 0.8 of the radius of the exact shock, L1 is by exact volume to \
          r = 0.35. n counts the cells along the unit of length."
     }
@@ -104,13 +104,6 @@ impl Case for NohSpace {
         let cells: [usize; 3] = std::array::from_fn(|d| if d < flows { n } else { ACROSS });
         let mut walls: Vec<_> = (0..3).map(|axis| mirror(axis, 0.0, Side::Above)).collect();
         walls.extend((flows..3).map(|axis| mirror(axis, thin, Side::Below)));
-        let gas = Material {
-            name: "gas".into(),
-            density: 1.0,
-            eos: EosData::IdealGas { adiabatic_index: GAMMA, c_v: 1.0 },
-            strength: None,
-            failure: Failure { compression: 0.0, ..Failure::default() },
-        };
         let body = Body {
             energy: 0.5 * COLD,
             ..resting("gas", Shape::Box { size }, cells, size.map(|edge| 0.5 * edge))
@@ -119,9 +112,9 @@ impl Case for NohSpace {
             name: ID.into(),
             units: Units::None,
             stop_time: STOP,
-            method: Method { visc_volume: VOLUME_VISCOSITY, ..preset.space() },
+            method: Method { hourglass: ZONAL, ..preset.space() },
             walls,
-            materials: vec![gas],
+            materials: vec![gas(GAMMA, 1.0)],
             bodies: vec![body],
         }
         .into()

@@ -3,11 +3,11 @@
 use whipple_solver::method::Preset;
 use whipple_solver::space::method::Method;
 use whipple_solver::space::output::Particle;
-use whipple_solver::space::scene::{Body, EosData, Failure, Material, Scene, Shape, Side};
+use whipple_solver::space::scene::{Body, Scene, Shape, Side};
 use whipple_solver::units::Units;
 
 use super::parts::shells::{radius, shells};
-use super::parts::{Columns, mirror, moments, motion, resting};
+use super::parts::{Columns, gas, mirror, moments, motion, resting};
 use super::{Case, Claim, Claims, Kind, Level, Quantity, Wanted, Weight};
 use crate::exact::Geometry;
 use crate::exact::sedov::Sedov as Exact;
@@ -33,6 +33,8 @@ const COLD: f64 = 1e-6;
 const HEAT: f64 = 1.0;
 /// Coefficient of the viscous pressure of pyramids, which cold gas needs (decision 0013).
 const VOLUME_VISCOSITY: f64 = 2.0;
+/// Stiffness of pyramids against being denser than their cell: that of the gas (decision 0017).
+const ZONAL: f64 = 1.0;
 /// First entry of the run, over its end: the first step knows of no pressure gradient yet.
 const FIRST: f64 = 1e-6;
 /// Cells along the edge.
@@ -59,7 +61,8 @@ impl Case for Sedov {
         "An octant of a cube of cold gas, gamma 1.4, between mirrors gets the energy of a point blast in \
          the particles of its innermost corner, up to a cell away; the shock is to be at radius 1 at \
          t = 1. The energy is set in the state, so that no scene states it. The viscous pressure \
-         of pyramids is on (`visc_volume` 2). The radius of the shock is where the mean pressure of shells \
+         of pyramids is on (`visc_volume` 2), and they have the stiffness of the gas against being denser \
+         than their cell (`hourglass` 1, decision 0017). The radius of the shock is where the mean pressure of shells \
          falls below half of that behind the exact shock, scatter the root mean square of the density \
          between 0.85 and 0.95 about the mean of its shell. n counts the cells along the edge of 1.2."
     }
@@ -73,13 +76,6 @@ impl Case for Sedov {
     }
 
     fn scene(&self, preset: Preset, _: &str, n: usize) -> AnyScene {
-        let gas = Material {
-            name: "gas".into(),
-            density: 1.0,
-            eos: EosData::IdealGas { adiabatic_index: GAMMA, c_v: HEAT },
-            strength: None,
-            failure: Failure { compression: 0.0, ..Failure::default() },
-        };
         let body = Body {
             energy: COLD,
             ..resting("gas", Shape::Box { size: [EDGE; 3] }, [n; 3], [0.5 * EDGE; 3])
@@ -88,9 +84,9 @@ impl Case for Sedov {
             name: ID.into(),
             units: Units::None,
             stop_time: STOP,
-            method: Method { visc_volume: VOLUME_VISCOSITY, ..preset.space() },
+            method: Method { visc_volume: VOLUME_VISCOSITY, hourglass: ZONAL, ..preset.space() },
             walls: (0..3).map(|axis| mirror(axis, 0.0, Side::Above)).collect(),
-            materials: vec![gas],
+            materials: vec![gas(GAMMA, HEAT)],
             bodies: vec![body],
         }
         .into()
@@ -146,6 +142,10 @@ impl Case for Sedov {
         enter("peak_over_exact", peak / behind.density);
         enter("scatter", moments(&near).1 / behind.density);
         enter("density_l1", misfit / volume);
+        enter(
+            "centre_pressure_over_exact",
+            means[0].pressure / exact.sample(means[0].radius, time)?.pressure,
+        );
         enter("kinetic_share", balance.now.kinetic / balance.now.energy());
         enter("dead_elements", solver.failed().1 as f64);
         let mut profile = Columns::default();
@@ -194,6 +194,7 @@ impl Case for Sedov {
             ("peak_over_exact", "peak density / exact"),
             ("scatter", "scatter"),
             ("density_l1", "L1 of density"),
+            ("centre_pressure_over_exact", "pressure of the centre / exact"),
             ("kinetic_share", "kinetic share of energy"),
             ("dead_elements", "dead elements"),
         ]

@@ -347,6 +347,9 @@ fn text(case: &dyn Case, record: &RunRecord) -> String {
         row("updates per CPU second", sig(space.updates_per_cpu_second, 3));
         row("bytes per particle", sig(space.bytes_per_particle, 3));
     }
+    if let Some(floored) = record.counters.map(|c| c.floored).filter(|&floored| floored > 0) {
+        row("held at the least density", floored.to_string());
+    }
     row("steps", record.steps.to_string());
     row("particle-steps", record.particle_steps.to_string());
     row("CPU seconds", sig(record.cpu_seconds, 3));

@@ -52,11 +52,7 @@ pub fn beginning(key: &RunKey) -> RunRecord {
     once(&BEGINNINGS, key, |scene| {
         let mut scene = if key.case == "long-rod" { cut_short(scene) } else { scene };
         let bodies = scene.space().map_or(&[][..], |scene| &scene.bodies);
-        // The implosion onto a centre is known to fail later: its record says so.
-        let fails = key.case == "noh-space" && key.variant == "spherical";
-        if fails
-            || bodies.iter().map(|body| body.cells.iter().product::<usize>()).sum::<usize>() > FEW
-        {
+        if bodies.iter().map(|body| body.cells.iter().product::<usize>()).sum::<usize>() > FEW {
             scene.set_stop_time(0.1 * scene.stop_time());
         }
         scene

@@ -4,6 +4,7 @@ mod bodies;
 mod conservation;
 mod determinism;
 mod failure;
+mod gas;
 mod lattice_density;
 mod memory;
 mod objectivity;

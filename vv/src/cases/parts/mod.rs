@@ -11,7 +11,9 @@ pub(super) mod shells;
 
 use std::collections::BTreeMap;
 
-use whipple_solver::space::scene::{Body, Hold, Shape, Side, Turn, Wall};
+use whipple_solver::space::scene::{
+    Body, EosData, Failure, Hold, Material, Shape, Side, Turn, Wall,
+};
 
 use crate::record::Series;
 
@@ -40,6 +42,17 @@ pub(super) fn resting(material: &str, shape: Shape, cells: [usize; 3], centre: [
         spin: [0.0; 3],
         energy: 0.0,
         noise: 0.0,
+    }
+}
+
+/// An ideal gas of density 1: none of its elements fails, however far it is compressed.
+pub(super) fn gas(adiabatic_index: f64, c_v: f64) -> Material {
+    Material {
+        name: "gas".into(),
+        density: 1.0,
+        eos: EosData::IdealGas { adiabatic_index, c_v },
+        strength: None,
+        failure: Failure { compression: 0.0, ..Failure::default() },
     }
 }
 

@@ -1,0 +1,89 @@
+//! Gases: elements that live on however they are deformed, and densities without a floor.
+
+use whipple_solver::method::Viscosity;
+use whipple_solver::space::Simulation;
+use whipple_solver::space::restart::{Section, Values};
+use whipple_solver::space::scene::{Body, EosData, Failure, Material};
+
+use super::scenes::{block, copper, march, scene, start};
+
+fn gas() -> Material {
+    Material {
+        name: "gas".into(),
+        density: 1.0,
+        eos: EosData::IdealGas { adiabatic_index: 1.4, c_v: 1.0 },
+        strength: None,
+        failure: Failure { compression: 0.0, ..Failure::default() },
+    }
+}
+
+/// Changes a section of numbers.
+fn change(sections: &mut [Section], name: &str, with: impl FnOnce(&mut [f64])) {
+    let section = sections.iter_mut().find(|section| section.name == name).expect("that section");
+    let Values::F64(values) = &mut section.values else { panic!("{name} holds no numbers") };
+    with(values);
+}
+
+/// Least density over all particles, over a reference density.
+fn thinnest(simulation: &Simulation, rho_0: f64) -> f64 {
+    simulation.all_particles().map(|p| p.rho / rho_0).fold(f64::INFINITY, f64::min)
+}
+
+/// Where a dead element's centroid lies on one of its corners, as in a corner of mirrors, the bonds
+/// of the element have no direction.
+#[test]
+fn a_centroid_on_a_corner_of_its_dead_element() {
+    for viscosity in [Viscosity::Limited, Viscosity::Pairwise] {
+        let body = Body { energy: 1.0, ..block("gas", [2, 2, 2], 1.0) };
+        let mut scene = scene(vec![gas()], vec![body]);
+        scene.method.viscosity = viscosity;
+        let mut simulation = start(&scene);
+        let dead = simulation.all_elements().next().expect("an element");
+        let mut sections = simulation.sections();
+        for section in &mut sections {
+            if let ("group.live", Values::U8(live)) = (section.name.as_str(), &mut section.values) {
+                live[0] &= !1;
+            }
+        }
+        let centre = dead.centre as usize;
+        change(&mut sections, "mesh.ratio", |ratio| ratio[centre] = 0.0);
+        let corner = simulation.particle(dead.corners[0]).position;
+        let own = simulation.particle(dead.centre).position;
+        for (d, name) in ["state.dx", "state.dy", "state.dz"].into_iter().enumerate() {
+            change(&mut sections, name, |column| column[centre] = corner[d] - own[d]);
+        }
+        simulation.restore(&sections).expect("sections of its own");
+        assert_eq!(simulation.particle(dead.centre).position, corner);
+        march(&mut simulation, 3);
+        assert!(simulation.all_particles().all(|p| p.u.is_finite() && p.rho > 0.0));
+    }
+}
+
+/// A hot block of gas flies apart: its density falls with its volume, far below any of a solid, and
+/// its elements stay volumes.
+#[test]
+fn gas_thins_without_a_floor() {
+    let body = Body { energy: 1.0, ..block("gas", [4, 4, 4], 0.25) };
+    let mut scene = scene(vec![gas()], vec![body]);
+    scene.method.hourglass = 1.0;
+    let mut simulation = start(&scene);
+    march(&mut simulation, 400);
+    let least = thinnest(&simulation, 1.0);
+    println!("t = {}: least density {least:.2e}", simulation.time());
+    assert!(least < 0.05, "{least}");
+    assert_eq!(simulation.counters().floored, 0);
+    assert_eq!(simulation.failed(), (0, 0));
+    assert!(simulation.balance().energy_drift() < 1e-12);
+}
+
+/// What the least density of a solid holds is counted.
+#[test]
+fn the_floor_of_a_solid_is_counted() {
+    let body = Body { energy: 0.5, ..block("copper", [4, 4, 4], 0.25) };
+    let mut simulation = start(&scene(vec![copper()], vec![body]));
+    march(&mut simulation, 600);
+    let least = thinnest(&simulation, 8.93);
+    println!("t = {}: least density {least:.2}", simulation.time());
+    assert!((least - 0.3).abs() < 1e-9, "{least}");
+    assert!(simulation.counters().floored > 0);
+}
