@@ -1,11 +1,11 @@
-//! Surfaces of live elements, which keep the particles of other bodies out (decision 0014).
+//! Surfaces of live elements, which keep the other bodies out (decisions 0014 and 0016).
 //!
 //! A particle that elements hold has its density from their volumes. The printed contact between two
 //! such particles would compress both a second time, and a node on a node gives way before it carries
-//! the pressure of the bodies. So a particle in front of a live surface of another body feels a
-//! spring on the nearest point of that surface: the force is the gradient of an energy of the
-//! distance alone, along the line between the two points, so energy, momentum and angular momentum
-//! are kept.
+//! the pressure of the bodies. So each Gauss point of a live face, and each loose particle, in front
+//! of a live surface of another body feels a spring on the nearest point of that surface. The force is
+//! the gradient of an energy of the distance and of the area that the point acts for, so energy,
+//! momentum and angular momentum are kept.
 
 use super::columns::{Derived, State, Sums};
 use super::contacts::{Contacts, Member, steepness};
@@ -82,7 +82,7 @@ const PLACES: usize = 13;
 /// face across (decision 0016).
 const POINTS: [[f64; 2]; 4] = {
     // (1 - 1/sqrt(3)) / 2
-    let (low, high) = (0.211_324_865_405_187_12, 0.788_675_134_594_812_9);
+    let (low, high) = (0.211_324_865_405_187_1, 0.788_675_134_594_812_9);
     [[low, low], [high, low], [high, high], [low, high]]
 };
 
