@@ -9,13 +9,16 @@ use crate::space::mesh::{Body, Mesh};
 /// face across (decision 0016).
 pub(super) const POINTS: [[f64; 2]; 4] = {
     // (1 - 1/sqrt(3)) / 2
-    let (low, high) = (0.211_324_865_405_187_12, 0.788_675_134_594_812_9);
+    let (low, high) = (0.211_324_865_405_187_1, 0.788_675_134_594_812_9);
     [[low, low], [high, low], [high, high], [low, high]]
 };
 
 /// Most rounds of the search for the nearest point of a face, and the move along its sides that ends it.
-const ROUNDS: usize = 12;
+const ROUNDS: usize = 40;
 const CLOSEST: f64 = 1e-13;
+
+/// A move so short that the square of the distance does not tell whether it leads away.
+const SHORT: f64 = 1e-6;
 
 /// Least curvature of the square of the distance, over that of a flat face, that the search trusts.
 const CONVEX: f64 = 0.1;
@@ -130,13 +133,13 @@ impl Nearest {
     pub(super) fn of(x: [f64; 3], [a, b, c, d]: [[f64; 3]; 4]) -> Self {
         let (from, sides) = (minus(x, a), [minus(b, a), minus(d, a)]);
         let twist = minus(minus(c, d), sides[0]);
-        let (mut at, mut moved) = ([0.5; 2], true);
-        for _ in 0..ROUNDS {
+        let away =
+            |at: [f64; 2]| plus(plus(from, -at[0], sides[0]), -at[1], plus(sides[1], at[0], twist));
+        let mut at = [0.5; 2];
+        let mut r = away(at);
+        let mut rounds = 0..ROUNDS;
+        while rounds.next().is_some() {
             let along = [plus(sides[0], at[1], twist), plus(sides[1], at[0], twist)];
-            let r = plus(plus(from, -at[0], sides[0]), -at[1], along[1]);
-            if !moved {
-                return Self { at, r, square: dot(r, r) };
-            }
             let slope = [dot(r, along[0]), dot(r, along[1])];
             let steep = [dot(along[0], along[0]), dot(along[1], along[1])];
             let mixed = dot(along[0], along[1]) - dot(r, twist);
@@ -145,23 +148,30 @@ impl Nearest {
             let stays =
                 |i: usize| at[i] <= 0.0 && slope[i] <= 0.0 || at[i] >= 1.0 && slope[i] >= 0.0;
             let held = [stays(0), stays(1)];
-            let coupled = held == [false; 2] && both > CONVEX * steep[0] * steep[1];
-            moved = false;
-            for i in 0..2 {
-                let step = if coupled {
-                    (slope[i] * steep[1 - i] - slope[1 - i] * mixed) / both
-                } else if held[i] {
-                    0.0
-                } else {
-                    slope[i] / steep[i].max(f64::MIN_POSITIVE)
-                };
-                let next = (at[i] + step).clamp(0.0, 1.0);
-                moved |= (next - at[i]).abs() > CLOSEST;
-                at[i] = next;
+            let mut step = if held == [false; 2] && both > CONVEX * steep[0] * steep[1] {
+                [0, 1].map(|i| (slope[i] * steep[1 - i] - slope[1 - i] * mixed) / both)
+            } else {
+                let alone = |i: usize| slope[i] / steep[i].max(f64::MIN_POSITIVE);
+                [0, 1].map(|i| if held[i] { 0.0 } else { alone(i) })
+            };
+            // A step that leads farther away is too long, unless the distance cannot tell.
+            loop {
+                let next = [0, 1].map(|i| (at[i] + step[i]).clamp(0.0, 1.0));
+                let way = away(next);
+                let moved = (next[0] - at[0]).abs() + (next[1] - at[1]).abs();
+                let nearer = moved < SHORT || dot(way, way) < dot(r, r);
+                if nearer {
+                    (at, r) = (next, way);
+                }
+                if moved < CLOSEST {
+                    return Self { at, r, square: dot(r, r) };
+                }
+                if nearer || rounds.next().is_none() {
+                    break;
+                }
+                step = step.map(|step| 0.5 * step);
             }
         }
-        let along = plus(sides[1], at[0], twist);
-        let r = plus(plus(from, -at[0], sides[0]), -at[1], along);
         Self { at, r, square: dot(r, r) }
     }
 }

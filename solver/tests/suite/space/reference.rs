@@ -168,10 +168,14 @@ struct Contact {
     drag: f64,
 }
 
-/// A particle on the surface of another body.
+/// A point of a body on the surface of another: a loose particle, or one of a face.
 struct Spring {
-    particle: usize,
+    /// Particles and their shares.
+    own: Vec<(usize, f64)>,
     element: usize,
+    /// Area that the point stands for, and its gradients.
+    area: f64,
+    slopes: Vec<(usize, V)>,
     /// Corners of the face and their shares.
     face: [(usize, f64); 4],
     way: V,
@@ -194,10 +198,28 @@ impl Spring {
     }
 
     fn parts(&self) -> Vec<(usize, f64)> {
-        let mut parts = vec![(self.particle, 1.0)];
+        let mut parts = self.own.clone();
         parts.extend(self.face.map(|(i, share)| (i, -share)));
         parts
     }
+}
+
+/// Whether two springs start from the same point.
+fn same(a: &Spring, b: &Spring) -> bool {
+    let has = |&(i, share): &(usize, f64)| {
+        a.own.iter().any(|&(j, other)| i == j && (share - other).abs() < 1e-9)
+    };
+    a.own.len() == b.own.len() && b.own.iter().all(has)
+}
+
+/// The Gauss points of a face, in the order of its corners.
+const POINTS: [[f64; 2]; 4] = {
+    let (low, high) = (0.211_324_865_405_187_1, 0.788_675_134_594_812_9);
+    [[low, low], [high, low], [high, high], [low, high]]
+};
+
+fn bilinear([u, v]: [f64; 2]) -> [f64; 4] {
+    [(1.0 - u) * (1.0 - v), u * (1.0 - v), u * v, (1.0 - u) * v]
 }
 
 pub struct Plain {
@@ -207,8 +229,6 @@ pub struct Plain {
     pub elements: Vec<Element>,
     contacts: Vec<Contact>,
     springs: Vec<Spring>,
-    /// Distance at which each particle feels surfaces.
-    stands: Vec<f64>,
     pub dt: f64,
     allowed: [f64; 2],
     rate: f64,
@@ -291,7 +311,6 @@ impl Plain {
             elements: Vec::new(),
             contacts: Vec::new(),
             springs: Vec::new(),
-            stands: Vec::new(),
             dt: 0.0,
             allowed: [f64::INFINITY; 2],
             rate: 0.0,
@@ -739,90 +758,138 @@ impl Plain {
         all
     }
 
-    /// Nearest point of a face, as four triangles about its middle: shares of the corners.
+    /// Nearest point of a bilinear face: one inside, where Newton's iteration finds some, or of an edge.
     fn nearest(&self, x: V, face: [usize; 4]) -> ([f64; 4], V) {
         let corners = face.map(|i| self.position(i));
-        let middle = times(corners.into_iter().fold([0.0; 3], add), 0.25);
-        let mut best = ([0.0; 4], [f64::INFINITY; 3]);
-        for k in 0..4 {
-            let points = [corners[k], corners[(k + 1) % 4], middle];
-            // The foot of the perpendicular, or the nearest point of an edge.
-            let normal = cross(sub(points[1], points[0]), sub(points[2], points[0]));
-            let part = |a: V, b: V| dot(normal, cross(sub(a, x), sub(b, x))) / dot(normal, normal);
-            let foot = [0, 1, 2].map(|c| part(points[(c + 1) % 3], points[(c + 2) % 3]));
-            let mut candidates = vec![foot];
-            for c in 0..3 {
-                let (a, b) = (points[c], points[(c + 1) % 3]);
-                let t = dot(sub(x, a), sub(b, a)) / dot(sub(b, a), sub(b, a));
-                let mut edge = [0.0; 3];
-                edge[c] = 1.0 - t.clamp(0.0, 1.0);
-                edge[(c + 1) % 3] = t.clamp(0.0, 1.0);
-                candidates.push(edge);
+        let [a, b, c, d] = corners;
+        let twist = sub(sub(c, d), sub(b, a));
+        let mut candidates = Vec::new();
+        for start in 0..9 {
+            let (mut u, mut v) =
+                (0.1 + 0.4 * f64::from(start % 3), 0.1 + 0.4 * f64::from(start / 3));
+            for _ in 0..12 {
+                let (p, q) = (add(sub(b, a), times(twist, v)), add(sub(d, a), times(twist, u)));
+                let r = sub(sub(x, a), add(times(sub(b, a), u), times(q, v)));
+                let mixed = dot(p, q) - dot(r, twist);
+                let whole = dot(p, p) * dot(q, q) - mixed * mixed;
+                let (along, across) = (dot(r, p), dot(r, q));
+                u += (along * dot(q, q) - across * mixed) / whole;
+                v += (across * dot(p, p) - along * mixed) / whole;
             }
-            for share in candidates.into_iter().filter(|s| s.iter().all(|&s| s >= 0.0)) {
-                let foot = (0..3).fold([0.0; 3], |sum, c| add(sum, times(points[c], share[c])));
-                let way = sub(x, foot);
-                if dot(way, way) < dot(best.1, best.1) {
-                    let mut shares = [0.25 * share[2]; 4];
-                    shares[k] += share[0];
-                    shares[(k + 1) % 4] += share[1];
-                    best = (shares, way);
-                }
+            if (0.0..=1.0).contains(&u) && (0.0..=1.0).contains(&v) {
+                candidates.push(bilinear([u, v]));
             }
         }
-        best
+        for k in 0..4 {
+            let (from, to) = (corners[k], corners[(k + 1) % 4]);
+            let along = sub(to, from);
+            let t = (dot(sub(x, from), along) / dot(along, along)).clamp(0.0, 1.0);
+            let mut shares = [0.0; 4];
+            (shares[k], shares[(k + 1) % 4]) = (1.0 - t, t);
+            candidates.push(shares);
+        }
+        let away = |shares: &[f64; 4]| {
+            sub(x, (0..4).fold([0.0; 3], |sum, k| add(sum, times(corners[k], shares[k]))))
+        };
+        let least = |a: &[f64; 4], b: &[f64; 4]| norm(away(a)).total_cmp(&norm(away(b)));
+        let best = candidates.into_iter().min_by(least).expect("edges at least");
+        (best, away(&best))
     }
 
-    fn spring_on(&self, particle: usize, element: usize, face: [usize; 4]) -> Spring {
-        let p = &self.particles[particle];
-        let (shares, r) = self.nearest(self.position(particle), face);
-        let (own, other) = (&self.bodies[p.body], &self.bodies[self.elements[element].body]);
+    /// Area of a point of a face with its gradients, and the normal there.
+    fn part(&self, face: [usize; 4], [u, v]: [f64; 2]) -> (f64, Vec<(usize, V)>, V) {
+        let corners = face.map(|i| self.position(i));
+        let by_u = [v - 1.0, 1.0 - v, v, -v];
+        let by_v = [u - 1.0, -u, u, 1.0 - u];
+        let sum = |by: [f64; 4]| (0..4).fold([0.0; 3], |s, k| add(s, times(corners[k], by[k])));
+        let (along, across) = (sum(by_u), sum(by_v));
+        let area = cross(along, across);
+        let normal = times(area, 1.0 / norm(area));
+        let slopes = (0..4).map(|k| {
+            let slope =
+                add(times(cross(across, normal), by_u[k]), times(cross(normal, along), by_v[k]));
+            (face[k], times(slope, 0.25))
+        });
+        (0.25 * norm(area), slopes.collect(), normal)
+    }
+
+    fn spring_on(&self, own: &[(usize, f64)], element: usize, face: [usize; 4]) -> Spring {
+        let x = own.iter().fold([0.0; 3], |x, &(i, share)| add(x, times(self.position(i), share)));
+        let p = &self.particles[own[0].0];
+        let (shares, r) = self.nearest(x, face);
+        let (first, other) = (&self.bodies[p.body], &self.bodies[self.elements[element].body]);
         let modulus = |solid: &Solid| solid.material.density * solid.fast * solid.fast;
-        let series = 1.0 / (1.0 / modulus(own) + 1.0 / modulus(other));
-        let area = 4.0 * p.mass / own.material.density / own.edge;
+        let series = 1.0 / (1.0 / modulus(first) + 1.0 / modulus(other));
         Spring {
-            particle,
+            own: own.to_vec(),
             element,
+            area: 4.0 * p.mass / first.material.density / first.edge,
+            slopes: Vec::new(),
             face: std::array::from_fn(|k| (face[k], shares[k])),
             way: times(r, 1.0 / norm(r)),
             z: norm(r),
             stand: 0.0,
-            stiffness: 0.5 * area * own.edge * series,
+            stiffness: 0.5 * first.edge * series,
             force: 0.0,
             drag: 0.0,
         }
     }
 
-    fn find_springs(&mut self) {
-        self.stands.resize(self.particles.len(), 0.0);
-        self.springs.clear();
+    /// The spring of a point on the faces of a body round its node nearest to a particle.
+    fn nearest_spring(
+        &self,
+        own: &[(usize, f64)],
+        particle: usize,
+        surface: &[(usize, [usize; 4])],
+    ) -> Option<Spring> {
+        let x = self.position(particle);
+        let away = |&node: &usize| norm(sub(self.position(node), x));
+        let nodes = surface.iter().flat_map(|(_, face)| face).copied();
+        let node = nodes.min_by(|a, b| away(a).total_cmp(&away(b)))?;
+        let round = surface.iter().filter(|(_, face)| face.contains(&node));
+        let all = round.map(|&(e, face)| self.spring_on(own, e, face));
+        all.min_by(|a, b| a.z.total_cmp(&b.z))
+    }
+
+    fn find_springs(&mut self, old: &[Spring]) {
+        let surfaces: Vec<_> = (0..self.bodies.len()).map(|body| self.surface(body)).collect();
+        let mut found = Vec::new();
         for body in 0..self.bodies.len() {
-            let surface = self.surface(body);
-            for i in 0..self.particles.len() {
-                if self.particles[i].body == body || !self.particles[i].exposed {
-                    continue;
+            for other in (0..self.bodies.len()).filter(|&other| other != body) {
+                let loose = (0..self.particles.len()).filter(|&i| {
+                    let p = &self.particles[i];
+                    p.body == body && p.exposed && p.live == 0
+                });
+                found.extend(
+                    loose.filter_map(|i| self.nearest_spring(&[(i, 1.0)], i, &surfaces[other])),
+                );
+                for &(_, face) in &surfaces[body] {
+                    for (k, at) in POINTS.into_iter().enumerate() {
+                        let shares = bilinear(at);
+                        let own: [(usize, f64); 4] = std::array::from_fn(|j| (face[j], shares[j]));
+                        let Some(mut spring) = self.nearest_spring(&own, face[k], &surfaces[other])
+                        else {
+                            continue;
+                        };
+                        let (area, slopes, normal) = self.part(face, at);
+                        (spring.area, spring.slopes) = (area, slopes);
+                        if dot(normal, spring.way).abs() > 0.5 {
+                            found.push(spring);
+                        }
+                    }
                 }
-                // The faces round the nearest node.
-                let x = self.position(i);
-                let away = |&node: &usize| {
-                    let r = sub(self.position(node), x);
-                    dot(r, r)
-                };
-                let nodes = surface.iter().flat_map(|(_, face)| face).copied();
-                let Some(node) = nodes.min_by(|a, b| away(a).total_cmp(&away(b))) else { continue };
-                let round = surface.iter().filter(|(_, face)| face.contains(&node));
-                let all = round.map(|&(e, face)| self.spring_on(i, e, face));
-                let Some(mut spring) = all.min_by(|a, b| a.z.total_cmp(&b.z)) else { continue };
-                let edges = self.bodies[body].edge + self.bodies[self.particles[i].body].edge;
-                let full = 0.25 * edges;
-                let before = self.stands[i];
-                let grown = if before < 0.25 * full { spring.z } else { before.max(spring.z) };
-                self.stands[i] = grown.min(full);
-                if self.stands[i] >= 0.25 * full {
-                    spring.stand = self.stands[i];
-                    spring.z /= spring.stand;
-                    self.springs.push(spring);
-                }
+            }
+        }
+        for mut spring in found {
+            let edges = [self.particles[spring.own[0].0].body, self.elements[spring.element].body]
+                .map(|body| self.bodies[body].edge);
+            let full = 0.25 * (edges[0] + edges[1]);
+            let before = old.iter().find(|old| same(old, &spring)).map_or(0.0, |old| old.stand);
+            let grown = if before < 0.25 * full { spring.z } else { before.max(spring.z) };
+            spring.stand = grown.min(full);
+            if spring.stand >= 0.25 * full {
+                spring.z /= spring.stand;
+                self.springs.push(spring);
             }
         }
     }
@@ -830,27 +897,28 @@ impl Plain {
     /// Springs that slide go on; others begin where they are, and what they had is returned.
     fn renew_springs(&mut self) -> Vec<(usize, f64)> {
         let old = std::mem::take(&mut self.springs);
-        self.find_springs();
+        self.find_springs(&old);
         let mut heat = Vec::new();
-        let mut slid = Vec::new();
+        let mut slid = vec![false; self.springs.len()];
         for old in old {
-            let mut was = self.spring_on(old.particle, old.element, old.face.map(|(i, _)| i));
-            let now = self.springs.iter().find(|s| s.particle == old.particle);
-            if now.is_some_and(|now| now.z * now.stand >= 0.8 * was.z) {
-                slid.push(old.particle);
+            let mut was = self.spring_on(&old.own, old.element, old.face.map(|(i, _)| i));
+            let now = self.springs.iter().position(|s| same(s, &old));
+            if let Some(k) =
+                now.filter(|&k| self.springs[k].z * self.springs[k].stand >= 0.8 * was.z)
+            {
+                slid[k] = true;
             } else if old.z < 1.0 {
-                was.stand = old.stand;
+                (was.stand, was.area) = (old.stand, old.area);
                 was.z /= was.stand;
-                let energy = was.energy();
+                let energy = was.area * was.energy();
                 let parts = was.parts().into_iter();
                 heat.extend(parts.map(|(i, share)| (i, 0.5 * share.abs() * energy)));
             }
         }
-        for s in self.springs.iter_mut().filter(|s| !slid.contains(&s.particle)) {
+        for (s, _) in self.springs.iter_mut().zip(slid).filter(|(_, slid)| !slid) {
             let distance = s.z * s.stand;
             s.stand = s.stand.min(distance);
             s.z = distance / s.stand;
-            self.stands[s.particle] = s.stand;
         }
         heat
     }
@@ -858,7 +926,7 @@ impl Plain {
     fn spring(&mut self) {
         for k in 0..self.springs.len() {
             let s = &self.springs[k];
-            let bodies = [self.particles[s.particle].body, self.elements[s.element].body];
+            let bodies = [self.particles[s.own[0].0].body, self.elements[s.element].body];
             let edges = self.bodies[bodies[0]].edge + self.bodies[bodies[1]].edge;
             if s.stand < 0.0625 * edges {
                 continue;
@@ -868,10 +936,19 @@ impl Plain {
             let velocity = parts.iter().map(|&(i, share)| times(self.velocity(i), share));
             let approach = -dot(s.way, velocity.fold([0.0; 3], add));
             self.rate = self.rate.max(approach / (0.4 * s.stand * s.z.max(0.2)));
-            let inertia: f64 = parts.iter().map(|&(i, share)| share * share / p(i).mass).sum();
-            let solid = &self.bodies[p(s.particle).body];
+            let solid = &self.bodies[bodies[0]];
+            let inertia: f64 = if s.own.len() == 1 {
+                parts.iter().map(|&(i, share)| share * share / p(i).mass).sum()
+            } else {
+                // Of the nodes of both flat surfaces, for the area of one point of four.
+                let lightness = bodies.map(|b| {
+                    let solid = &self.bodies[b];
+                    4.0 / (solid.material.density * solid.edge)
+                });
+                (lightness[0] + lightness[1]) * 4.0 / (solid.edge * solid.edge)
+            };
             if s.z * s.stand < s.stand + approach * solid.edge / solid.fast {
-                let stiff = s.stiffness / s.z.clamp(0.2, 1.0).powi(3);
+                let stiff = s.area * s.stiffness / s.z.clamp(0.2, 1.0).powi(3);
                 self.rate = self.rate.max((stiff * inertia).sqrt() / s.stand);
             }
             if s.z >= 1.0 {
@@ -879,21 +956,16 @@ impl Plain {
             }
             self.touches += 1;
             let deep = s.z.max(0.2);
-            let force = s.stiffness * 0.5 * (1.0 / (deep * deep) - 1.0) / s.stand;
+            let force = s.area * s.stiffness * 0.5 * (1.0 / (deep * deep) - 1.0) / s.stand;
             let mut drag = 0.0;
             if approach > 0.0 {
-                let of = |i: usize| {
-                    let p = p(i);
-                    (p.mass * p.sound / (0.5 * self.bodies[p.body].edge), p.sound)
+                let mean = |pick: &dyn Fn(&Particle) -> f64| -> f64 {
+                    parts.iter().map(|&(i, share)| 0.5 * share.abs() * pick(p(i))).sum()
                 };
-                let half = |pick: fn((f64, f64)) -> f64| {
-                    let face: f64 = s.face.iter().map(|&(i, share)| share * pick(of(i))).sum();
-                    0.5 * (pick(of(s.particle)) + face)
-                };
-                let bodies = [s.particle, s.face[0].0].map(|i| &self.bodies[p(i).body]);
-                let slope = 0.5 * (bodies[0].s + bodies[1].s);
-                let steep = self.method.visc_quad * slope * approach / half(|x| x.1);
-                let nu = half(|x| x.0) * (steep + steep.hypot(self.method.visc_linear));
+                let impedance = 0.5 * s.area * mean(&|p| p.rho_now * p.sound);
+                let slope = 0.5 * (solid.s + self.bodies[bodies[1]].s);
+                let steep = self.method.visc_quad * slope * approach / mean(&|p| p.sound);
+                let nu = impedance * (steep + steep.hypot(self.method.visc_linear));
                 self.rate = self.rate.max(2.0 * nu * inertia);
                 drag = nu * approach;
             }
@@ -902,6 +974,11 @@ impl Plain {
                 let p = &mut self.particles[i];
                 p.touched = true;
                 p.force = add(p.force, times(way, share * (force + drag)));
+            }
+            let tension = self.springs[k].energy();
+            for (i, slope) in &self.springs[k].slopes {
+                let p = &mut self.particles[*i];
+                p.force = sub(p.force, times(*slope, tension));
             }
             (self.springs[k].force, self.springs[k].drag) = (force, drag);
         }
