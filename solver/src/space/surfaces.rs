@@ -93,6 +93,9 @@ const FACING: f64 = 0.5;
 const ROUNDS: usize = 40;
 const CLOSEST: f64 = 1e-13;
 
+/// Relative growth of the square of the distance that is round-off.
+const LEVEL: f64 = 1e-14;
+
 /// Least curvature of the square of the distance, over that of a flat face, that the search trusts.
 const CONVEX: f64 = 0.1;
 
@@ -778,7 +781,7 @@ fn nearest_point(x: [f64; 3], [a, b, c, d]: [[f64; 3]; 4]) -> ([f64; 2], [f64; 3
             if moved < CLOSEST {
                 return (next, way);
             }
-            if dot(way, way) < dot(r, r) {
+            if dot(way, way) <= dot(r, r) * (1.0 + LEVEL) {
                 (at, r) = (next, way);
                 break;
             }
