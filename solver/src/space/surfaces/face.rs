@@ -20,6 +20,9 @@ const CLOSEST: f64 = 1e-13;
 /// A move so short that the square of the distance does not tell whether it leads away.
 const SHORT: f64 = 1e-6;
 
+/// Square of the warp of a face over that of its sides from which on it may have several nearest points.
+const WARPED: f64 = 0.01;
+
 /// Least curvature of the square of the distance, over that of a flat face, that the search trusts.
 const CONVEX: f64 = 0.1;
 
@@ -128,21 +131,65 @@ pub(super) struct Nearest {
 }
 
 impl Nearest {
-    /// Of a bilinear face with these corners, to `x`: Newton's iteration on the square of the distance,
-    /// within the face.
+    /// Of a bilinear face with these corners, to `x`. Where the face is warped the search starts from its
+    /// edges too: a fold of it may be nearer than what is seen from the middle.
     pub(super) fn of(x: [f64; 3], [a, b, c, d]: [[f64; 3]; 4]) -> Self {
-        let (from, sides) = (minus(x, a), [minus(b, a), minus(d, a)]);
-        let twist = minus(minus(c, d), sides[0]);
-        let away =
-            |at: [f64; 2]| plus(plus(from, -at[0], sides[0]), -at[1], plus(sides[1], at[0], twist));
-        let mut at = [0.5; 2];
-        let mut r = away(at);
+        let sides = [minus(b, a), minus(d, a)];
+        let face = Bilinear { from: minus(x, a), sides, twist: minus(minus(c, d), sides[0]) };
+        let mut best = face.descend([0.5; 2]);
+        let size = dot(sides[0], sides[0]) + dot(sides[1], sides[1]);
+        if dot(face.twist, face.twist) > WARPED * size {
+            for (start, way) in [([0.0; 2], 0), ([0.0; 2], 1), ([0.0, 1.0], 0), ([1.0, 0.0], 1)] {
+                let at = face.slide(start, way);
+                let r = face.away(at);
+                if dot(r, r) < best.square {
+                    best = face.descend(at);
+                }
+            }
+        }
+        best
+    }
+}
+
+/// A bilinear face, and a point seen from its first corner.
+struct Bilinear {
+    from: [f64; 3],
+    /// From the first corner to those beside it.
+    sides: [[f64; 3]; 2],
+    /// What the opposite corner lacks of a parallelogram's.
+    twist: [f64; 3],
+}
+
+impl Bilinear {
+    /// Derivatives of the place along both sides.
+    fn along(&self, at: [f64; 2]) -> [[f64; 3]; 2] {
+        [plus(self.sides[0], at[1], self.twist), plus(self.sides[1], at[0], self.twist)]
+    }
+
+    /// From a place on the face to the point.
+    fn away(&self, at: [f64; 2]) -> [f64; 3] {
+        plus(plus(self.from, -at[0], self.sides[0]), -at[1], self.along(at)[1])
+    }
+
+    /// The place nearest to the point along one side through `start`.
+    fn slide(&self, start: [f64; 2], way: usize) -> [f64; 2] {
+        let along = self.along(start)[way];
+        let t = dot(self.away(start), along) / dot(along, along).max(f64::MIN_POSITIVE);
+        let mut at = start;
+        at[way] = (start[way] + t).clamp(0.0, 1.0);
+        at
+    }
+
+    /// Newton's iteration on the square of the distance from a place on, within the face; a step never
+    /// leads away.
+    fn descend(&self, mut at: [f64; 2]) -> Nearest {
+        let mut r = self.away(at);
         let mut rounds = 0..ROUNDS;
         while rounds.next().is_some() {
-            let along = [plus(sides[0], at[1], twist), plus(sides[1], at[0], twist)];
-            let slope = [dot(r, along[0]), dot(r, along[1])];
-            let steep = [dot(along[0], along[0]), dot(along[1], along[1])];
-            let mixed = dot(along[0], along[1]) - dot(r, twist);
+            let along = self.along(at);
+            let slope = along.map(|along| dot(r, along));
+            let steep = along.map(|along| dot(along, along));
+            let mixed = dot(along[0], along[1]) - dot(r, self.twist);
             let both = steep[0] * steep[1] - mixed * mixed;
             // What would leave the face stays on its edge.
             let stays =
@@ -154,17 +201,17 @@ impl Nearest {
                 let alone = |i: usize| slope[i] / steep[i].max(f64::MIN_POSITIVE);
                 [0, 1].map(|i| if held[i] { 0.0 } else { alone(i) })
             };
-            // A step that leads farther away is too long, unless the distance cannot tell.
+            // A step that leads away is too long, unless the distance cannot tell.
             loop {
                 let next = [0, 1].map(|i| (at[i] + step[i]).clamp(0.0, 1.0));
-                let way = away(next);
+                let way = self.away(next);
                 let moved = (next[0] - at[0]).abs() + (next[1] - at[1]).abs();
                 let nearer = moved < SHORT || dot(way, way) < dot(r, r);
                 if nearer {
                     (at, r) = (next, way);
                 }
                 if moved < CLOSEST {
-                    return Self { at, r, square: dot(r, r) };
+                    return Nearest { at, r, square: dot(r, r) };
                 }
                 if nearer || rounds.next().is_none() {
                     break;
@@ -172,7 +219,7 @@ impl Nearest {
                 step = step.map(|step| 0.5 * step);
             }
         }
-        Self { at, r, square: dot(r, r) }
+        Nearest { at, r, square: dot(r, r) }
     }
 }
 
@@ -215,6 +262,21 @@ mod tests {
                 }
             }
         }
+    }
+
+    /// Seen from the middle of a face as the rod has them, the nearest point of its fold is missed.
+    #[test]
+    fn the_nearest_point_of_a_fold_is_found() {
+        let corners = [
+            [0.023_1, -0.020_0, 0.193_9],
+            [0.159_4, -0.054_5, 0.256_8],
+            [0.257_9, -0.061_8, 0.294_4],
+            [0.116_0, -0.118_3, 0.264_3],
+        ];
+        let x = [0.099_4, -0.003_5, 0.407_2];
+        let near = Nearest::of(x, corners);
+        let corner = minus(x, corners[1]);
+        assert!(near.square <= dot(corner, corner) + 1e-15, "{near:?}");
     }
 
     #[test]
