@@ -24,7 +24,7 @@ const SHORT: f64 = 1e-6;
 const WARPED: f64 = 0.01;
 
 /// Least curvature of the square of the distance, over that of a flat face, that the search trusts.
-const CONVEX: f64 = 0.1;
+const CONVEX: f64 = 1e-6;
 
 /// Face of an element.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,0 +1,300 @@
+//! Hexahedra, eight at a time: shear (24), tension (25), pressure of the volumes, and the viscosity
+//! and conduction of their bonds.
+//!
+//! A cell has nine particles: slot `b1 + 2 b2 + 4 b3` for the corner with these bits along the fast,
+//! mid and slow axes, and the centroid. Everything is computed from displacements relative to the
+//! translation of the body, so that a body at rest in its own frame is exactly free of force.
+//!
+//! The potential depends on positions through (27), damage and plastic strain: (28). Its gradient by
+//! positions is the force `g` of (29) and (63). That by damage and plastic strain, (66), is met by the
+//! constraints alone: with the multiplier 1 of the energy (70) and shares that sum to one, those of
+//! (71)-(73) are zero, and neither exerts a force.
+
+mod bonds;
+mod kinematics;
+mod particles;
+mod pressure;
+mod pyramid;
+mod resistance;
+
+pub use self::pyramid::pyramid_volumes;
+
+use self::bonds::{Loads, Seen};
+use self::kinematics::{Kinematics, gradient};
+use self::pyramid::{Extent, Pyramid, shares, tension, tension_energy};
+use super::columns::{AllSlices, SumsSlices};
+use super::hourglass::Hourglass;
+use super::lanes::{F8, Lanes, each};
+use super::mesh::{Body, Group};
+use super::method::Method;
+use crate::method::Viscosity;
+
+/// Corners A, B, C, D of the pyramids' outer faces, seen from outside against the clock.
+pub const FACES: [[usize; 4]; 6] =
+    [[1, 3, 7, 5], [0, 4, 6, 2], [2, 6, 7, 3], [0, 1, 5, 4], [4, 5, 7, 6], [0, 2, 3, 1]];
+
+/// Slot of the centroid.
+const CENTRE: usize = 8;
+
+type V3<F> = [F; 3];
+
+/// What elements read of the particles.
+#[derive(Debug, Clone, Copy)]
+pub struct Read<'a> {
+    /// Displacements.
+    pub displacement: [&'a [f64]; 3],
+    /// Velocities.
+    pub velocity: [&'a [f64]; 3],
+    /// Pressures on the volumes.
+    pub grip: &'a [f64],
+    /// Temperatures.
+    pub theta: &'a [f64],
+    /// Sound speeds.
+    pub sound: &'a [f64],
+    /// Densities.
+    pub rho: &'a [f64],
+}
+
+/// Columns of the particles of a chunk that a pass writes to.
+#[derive(Debug)]
+pub struct Sink<C> {
+    /// Of its nodes.
+    pub nodes: C,
+    /// Of its centroids.
+    pub centres: C,
+    /// First node.
+    pub first_node: usize,
+    /// First centroid.
+    pub first_centre: usize,
+}
+
+/// What the elements of a scene have in common.
+#[derive(Debug, Clone, Copy)]
+pub struct Laws {
+    /// Numerical choices.
+    pub method: Method,
+    /// Whether elements carry the pressure of their particles.
+    pub volumes: bool,
+    /// Length of the last step.
+    pub dt: f64,
+}
+
+/// What elements ask of the time step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Demand {
+    /// Largest inverse of the longest stable step.
+    pub rate: f64,
+    /// Whether an element is to die after the step.
+    pub dying: bool,
+    /// Heat of plastic flow and damage, Eq. (61).
+    pub heat: f64,
+}
+
+impl Demand {
+    /// Of nothing.
+    pub const NONE: Self = Self { rate: 0.0, dying: false, heat: 0.0 };
+
+    /// The stricter.
+    #[must_use]
+    pub fn and(self, other: Self) -> Self {
+        Self {
+            rate: self.rate.max(other.rate),
+            dying: self.dying || other.dying,
+            heat: self.heat + other.heat,
+        }
+    }
+}
+
+#[inline(always)]
+fn sub<F: Lanes>(a: &V3<F>, b: &V3<F>) -> V3<F> {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+#[inline(always)]
+fn dot<F: Lanes>(a: &V3<F>, b: &V3<F>) -> F {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+#[inline(always)]
+fn cross<F: Lanes>(a: &V3<F>, b: &V3<F>) -> V3<F> {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+impl Group {
+    /// First pass: forces, conduction (62) and the heat of flow and damage (61), half of it to the centroid
+    /// and a sixteenth to each corner: `phi` of (60).
+    #[inline(always)]
+    pub fn load_particles<F: Lanes>(
+        &mut self,
+        body: &Body,
+        laws: &Laws,
+        read: &Read<'_>,
+        sink: &mut Sink<SumsSlices<'_>>,
+    ) -> Demand {
+        let live = self.live;
+        let u: [V3<F>; 9] = self.gather_vector(read.displacement);
+        let y = self.shape(&u, body);
+        let theta: [F; 9] = self.gather(read.theta);
+        let mut loads = Loads { force: [[F::zero(); 3]; 9], heat: [F::zero(); 9] };
+
+        let motion = Kinematics::new(&u, body);
+        let mut pyramids = [Pyramid::nothing(); 6];
+        for k in 0..6 {
+            pyramids[k] = Pyramid::new(&y, FACES[k], body.pyramids[k]);
+        }
+        let opening: [F; 6] = each!(k => pyramids[k].growth * body.per_pyramid[k]);
+        let corners = ((theta[0] + theta[1]) + (theta[2] + theta[3]))
+            + ((theta[4] + theta[5]) + (theta[6] + theta[7]));
+        let mean = theta[CENTRE] * 0.5 + corners * 0.0625;
+
+        let extent = Extent::new(&pyramids, body);
+        self.fail(body, &motion, (&opening, &extent), mean);
+        let glass = Hourglass::of(&laws.method, body);
+        let held = match &glass {
+            Some(glass) => glass.energy(&u),
+            None => F::zero(),
+        };
+        let mut freed = self.damage(body, (&opening, held), laws.dt);
+        let intact = F::splat(1.0) - F::of(self.damage);
+        let mut rate_squared = F::zero();
+        if body.solid.mu > 0.0 {
+            freed += self.shear(body, &motion, (mean, intact, laws.dt));
+            let stress = each!(k => F::of(self.stress[k]));
+            motion.forces(&stress, body, live, &mut loads.force);
+            // Twice the rate at which longitudinal waves cross the cell, stretched.
+            let crossing = 2.0 * body.solid.sound / body.solid.edge;
+            rate_squared = motion.stretch_squared() * (crossing * crossing);
+        }
+        if let Some(glass) = &glass {
+            glass.push(&u, intact.keep(live), &mut loads.force);
+            rate_squared += F::splat(glass.rate_squared(body));
+        }
+        let freed = freed.keep(live);
+        for slot in 0..8 {
+            loads.heat[slot] = freed * 0.0625;
+        }
+        loads.heat[CENTRE] = freed * 0.5;
+
+        let mut push = [F::zero(); 6];
+        for k in 0..6 {
+            push[k] = -tension(opening[k], intact, body).keep(live);
+        }
+        let mut damping = F::zero();
+        if laws.volumes {
+            self.carry((laws, read), &mut push);
+            let v: [V3<F>; 9] = self.gather_vector(read.velocity);
+            let sound: [F; 9] = self.gather(read.sound);
+            rate_squared += extent.frequency_squared(&sound);
+            let seen = Seen { y: &y, v: &v, sound: &sound, theta: &theta };
+            damping = match laws.method.viscosity {
+                Viscosity::Limited => self.limited(&seen, (body, laws, read), &mut loads),
+                Viscosity::Pairwise => self.pairwise(&seen, (body, laws), &mut loads),
+            };
+            if self.stiff.is_some() {
+                let of = (&seen, body, &laws.method);
+                rate_squared += self.stiffen(&pyramids, (extent.volume, &opening), of, &mut push);
+            }
+        }
+        for k in 0..6 {
+            pyramids[k].push(FACES[k], push[k], &mut loads.force);
+        }
+        self.scatter_vector(&loads.force, sink);
+        self.scatter(&loads.heat, sink.nodes.heat, sink.first_node);
+        self.scatter_centre(loads.heat[CENTRE], sink.centres.heat, sink.first_centre);
+        // The longest stable step is 2 / (lambda/2 + sqrt(lambda^2/4 + omega^2)).
+        let half = damping * 0.5;
+        let rate = (half + (half * half + rate_squared).sqrt()) * 0.5;
+        Demand { rate: rate.keep(live).largest(), dying: self.dying != 0, heat: freed.sum() }
+    }
+
+    /// Second pass: volumes and, all over the mean velocity of the step, their rates, which take the place
+    /// of Eq. (36) in the pressure work (59), the viscous heat of Eq. (60), half to either particle, and the
+    /// power of the elements' own forces. Returns that power.
+    #[inline(always)]
+    pub fn work<F: Lanes>(&self, body: &Body, laws: &Laws, sink: &mut Sink<AllSlices<'_>>) -> f64 {
+        let first = [sink.first_node, sink.first_centre];
+        let (nodes, centres) = (&mut sink.nodes, &mut sink.centres);
+        let u: [V3<F>; 9] =
+            self.gather_own(nodes.0.displacement(), centres.0.displacement(), first);
+        let y = self.shape(&u, body);
+        let v: [V3<F>; 9] = self.gather_own(nodes.2.mean(), centres.2.mean(), first);
+        let intact = F::splat(1.0) - F::of(self.damage);
+        let mut power = F::zero();
+        let (mut growths, mut rates) = ([F::zero(); 6], [F::zero(); 6]);
+        for (k, face) in FACES.into_iter().enumerate() {
+            let pyramid = Pyramid::new(&y, face, body.pyramids[k]);
+            let opening = pyramid.growth * body.per_pyramid[k];
+            growths[k] = pyramid.growth.keep(self.live);
+            let rate = pyramid.rate(&v, face).keep(self.live);
+            power += tension(opening, intact, body) * rate;
+            rates[k] = rate;
+        }
+        if let Some(glass) = Hourglass::of(&laws.method, body) {
+            power += (glass.power(&u, &v) * intact).keep(self.live);
+        }
+        if body.solid.mu > 0.0 {
+            let stress = each!(k => F::of(self.stress[k]));
+            let piola = Kinematics::new(&u, body).piola(&stress, body);
+            let gradient = gradient(&v, body);
+            let mut shear = F::zero();
+            for row in 0..3 {
+                for (axis, gradient) in gradient.iter().enumerate() {
+                    shear += piola[3 * row + axis] * gradient[row];
+                }
+            }
+            power += (shear * body.cell_volume).keep(self.live);
+        }
+        if laws.volumes {
+            // The particles have the same shares in the volumes as in the pressure on them.
+            let share = shares(&growths, laws.method.balance);
+            self.scatter(&share, nodes.2.volume, first[0]);
+            self.scatter_centre(share[CENTRE], centres.2.volume, first[1]);
+            let share = shares(&rates, laws.method.balance);
+            self.scatter(&share, nodes.2.volume_rate, first[0]);
+            self.scatter_centre(share[CENTRE], centres.2.volume_rate, first[1]);
+            let mut heat = [F::zero(); 9];
+            for slot in 0..8 {
+                let r = sub(&y[slot], &y[CENTRE]);
+                let w = sub(&v[slot], &v[CENTRE]);
+                let half = F::of(self.bonds[slot]) * dot(&r, &w) * (-0.5 * laws.dt);
+                heat[slot] = half;
+                heat[CENTRE] += half;
+            }
+            if let Some(stiff) = &self.stiff {
+                for (k, face) in FACES.into_iter().enumerate() {
+                    let warmth = F::of(stiff[k]) * rates[k] * -laws.dt;
+                    heat[CENTRE] += warmth * 0.5;
+                    for slot in face {
+                        heat[slot] += warmth * 0.125;
+                    }
+                }
+            }
+            self.scatter(&heat, nodes.2.heat, first[0]);
+            self.scatter_centre(heat[CENTRE], centres.2.heat, first[1]);
+        }
+        power.sum()
+    }
+
+    /// Energy stored by lane: in shear (24), from the stress of the last step, in tension (25) and in
+    /// hourglass modes, at the positions before the last drift, which was of length `dt`.
+    #[must_use]
+    pub fn stored(
+        &self,
+        body: &Body,
+        (displacement, velocity): ([&[f64]; 3], [&[f64]; 3]),
+        (method, dt): (&Method, f64),
+    ) -> [F8; 3] {
+        let mut u: [V3<F8>; 9] = self.gather_vector(displacement);
+        let v: [V3<F8>; 9] = self.gather_vector(velocity);
+        for (u, v) in u.iter_mut().zip(&v) {
+            *u = sub(u, &v.map(|v| v * dt));
+        }
+        let y = self.shape(&u, body);
+        let opening =
+            each!(k => Pyramid::new(&y, FACES[k], body.pyramids[k]).growth * body.per_pyramid[k]);
+        let intact = F8::splat(1.0) - self.damage;
+        let (shear, tension) = (self.shear_energy::<F8>(body), tension_energy(body, &opening));
+        let glass = Hourglass::of(method, body).map_or(F8::ZERO, |glass| glass.energy(&u));
+        [shear, tension, glass].map(|energy| (energy * intact).keep(self.live))
+    }
+}

@@ -1,0 +1,164 @@
+//! Pyramids from the centroid of a cell to its faces: their volumes, and tension.
+
+use super::{CENTRE, FACES, V3, cross, dot, sub};
+use crate::space::lanes::{F8, Lanes};
+use crate::space::mesh::Body;
+
+/// A pyramid from the centroid to a face.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Pyramid<F> {
+    /// From the centroid to the middle of the face.
+    pub(super) w: V3<F>,
+    /// Diagonals of the face.
+    pub(super) e: V3<F>,
+    pub(super) g: V3<F>,
+    /// Twice the area of the face, outwards.
+    pub(super) area: V3<F>,
+    /// Volume over the reference volume, less one, times the reference volume.
+    pub(super) growth: F,
+}
+
+impl<F: Lanes> Pyramid<F> {
+    #[inline(always)]
+    pub(super) fn nothing() -> Self {
+        let none = [F::zero(); 3];
+        Self { w: none, e: none, g: none, area: none, growth: F::zero() }
+    }
+
+    #[inline(always)]
+    pub(super) fn new(y: &[V3<F>; 9], [a, b, c, d]: [usize; 4], reference: f64) -> Self {
+        let mut w = [F::zero(); 3];
+        for (k, w) in w.iter_mut().enumerate() {
+            *w = ((y[a][k] + y[b][k]) + (y[c][k] + y[d][k])) * 0.25 - y[CENTRE][k];
+        }
+        let (e, g) = (sub(&y[c], &y[a]), sub(&y[d], &y[b]));
+        let area = cross(&e, &g);
+        // Exact for the bilinear face; nothing where nothing has moved.
+        let growth = dot(&w, &area) * (1.0 / 6.0) - reference;
+        Self { w, e, g, area, growth }
+    }
+
+    /// Rate of the volume.
+    #[inline(always)]
+    pub(super) fn rate(&self, v: &[V3<F>; 9], face: [usize; 4]) -> F {
+        let [a, b, c, d] = face;
+        let mut w = [F::zero(); 3];
+        for (k, w) in w.iter_mut().enumerate() {
+            *w = ((v[a][k] + v[b][k]) + (v[c][k] + v[d][k])) * 0.25 - v[CENTRE][k];
+        }
+        let (e, g) = (sub(&v[c], &v[a]), sub(&v[d], &v[b]));
+        let turned = dot(&e, &cross(&self.g, &self.w)) + dot(&g, &cross(&self.w, &self.e));
+        (dot(&w, &self.area) + turned) * (1.0 / 6.0)
+    }
+
+    /// Square of the gradient of the volume, each particle's part over its share of the cell's mass.
+    #[inline(always)]
+    pub(super) fn steepness(&self) -> F {
+        let (gw, we) = (cross(&self.g, &self.w), cross(&self.w, &self.e));
+        dot(&self.area, &self.area) * (1.0 / 6.0) + (dot(&gw, &gw) + dot(&we, &we)) * (8.0 / 9.0)
+    }
+
+    /// Adds `push` times the gradient of the volume.
+    #[inline(always)]
+    pub(super) fn push(&self, [a, b, c, d]: [usize; 4], push: F, force: &mut [V3<F>; 9]) {
+        let sixth = push * (1.0 / 6.0);
+        let (gw, we) = (cross(&self.g, &self.w), cross(&self.w, &self.e));
+        for k in 0..3 {
+            let fourth = self.area[k] * (sixth * 0.25);
+            let (gw, we) = (gw[k] * sixth, we[k] * sixth);
+            force[CENTRE][k] -= self.area[k] * sixth;
+            force[a][k] += fourth - gw;
+            force[c][k] += fourth + gw;
+            force[b][k] += fourth - we;
+            force[d][k] += fourth + we;
+        }
+    }
+}
+
+/// Weights of a pyramid for the corners of its own face, on top of those for all corners, and for all
+/// corners.
+#[inline(always)]
+pub(super) fn corner_weights(balance: f64) -> [f64; 2] {
+    [0.125 * (1.0 + 2.0 * balance), -0.125 * balance]
+}
+
+/// Shares of nine particles in six pyramids.
+#[inline(always)]
+pub(super) fn shares<F: Lanes>(pyramids: &[F; 6], balance: f64) -> [F; 9] {
+    let [own, other] = corner_weights(balance);
+    let all =
+        ((pyramids[0] + pyramids[1]) + (pyramids[2] + pyramids[3])) + (pyramids[4] + pyramids[5]);
+    let mut share = [all * other; 9];
+    share[CENTRE] = all * 0.5;
+    for (k, face) in FACES.into_iter().enumerate() {
+        let part = pyramids[k] * own;
+        for slot in face {
+            share[slot] += part;
+        }
+    }
+    share
+}
+
+/// Volume and faces of a cell.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Extent<F> {
+    pub(super) volume: F,
+    /// Square of twice the largest face.
+    pub(super) largest: F,
+    /// Sum of the squares of twice the six faces.
+    pub(super) faces: F,
+}
+
+impl<F: Lanes> Extent<F> {
+    #[inline(always)]
+    pub(super) fn new(pyramids: &[Pyramid<F>; 6], body: &Body) -> Self {
+        let mut extent =
+            Self { volume: F::splat(body.cell_volume), largest: F::zero(), faces: F::zero() };
+        for pyramid in pyramids {
+            let square = dot(&pyramid.area, &pyramid.area);
+            extent.largest = extent.largest.max(square);
+            extent.faces += square;
+            extent.volume += pyramid.growth;
+        }
+        extent
+    }
+
+    /// Square of the highest frequency of the cell's pressure: `4 c^2 (A_1^2 + A_2^2 + A_3^2) / V^2`,
+    /// a bound for a lattice of such cells, and met where they are thin (decision 0015).
+    #[inline(always)]
+    pub(super) fn frequency_squared(&self, sound: &[F; 9]) -> F {
+        let mut fastest = sound[CENTRE];
+        for sound in &sound[..8] {
+            fastest = fastest.max(*sound);
+        }
+        // Of three pairs of faces that come doubled.
+        self.faces * fastest * fastest * 0.5 / (self.volume * self.volume)
+    }
+}
+
+/// Volumes of the pyramids of a cell with these corners about its centre.
+#[must_use]
+pub fn pyramid_volumes(corners: &[[f64; 3]; 8]) -> [f64; 6] {
+    let mut y = [[F8::ZERO; 3]; 9];
+    for (slot, corner) in corners.iter().enumerate() {
+        y[slot] = corner.map(F8::splat);
+    }
+    FACES.map(|face| Pyramid::new(&y, face, 0.0).growth.0[0])
+}
+
+/// Tension of a pyramid, Eq. (25), with the bracket (26).
+#[inline(always)]
+pub(super) fn tension<F: Lanes>(opening: F, intact: F, body: &Body) -> F {
+    intact * body.solid.bulk * opening.max(F::zero())
+}
+
+/// Energy of the pyramids in tension, damage apart.
+#[inline(always)]
+pub(super) fn tension_energy<F: Lanes>(body: &Body, opening: &[F; 6]) -> F {
+    let mut energy = F::zero();
+    for (k, o) in opening.iter().enumerate() {
+        let open = o.max(F::zero());
+        energy += open * open * (0.5 * body.solid.bulk * body.pyramids[k]);
+    }
+    energy
+}
