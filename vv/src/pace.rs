@@ -222,15 +222,15 @@ mod tests {
     #[test]
     fn phases_make_up_the_run() {
         let scene = short();
-        let pace = measure("short", &scene, Stretch::Steps(50), 1).expect("a run");
+        let pace = measure("short", &scene, Stretch::Steps(20), 1).expect("a run");
         let mut plain = Simulation::new(&scene).expect("a scene");
         let (mut listed, mut acting) = (0, 0);
-        for _ in 0..50 {
+        for _ in 0..20 {
             plain.step(scene.stop_time).expect("a step");
             listed += plain.pairs() as u64;
             acting += plain.acting() as u64;
         }
-        assert_eq!((pace.steps, pace.updates), (50, plain.counters().particle_steps));
+        assert_eq!((pace.steps, pace.updates), (20, plain.counters().particle_steps));
         assert_eq!((pace.listed, pace.acting), (listed, acting));
         assert_eq!(pace.parts.last().expect("a part").time.to_bits(), plain.time().to_bits());
         let spent = pace.spent();
@@ -239,7 +239,7 @@ mod tests {
             let there = spent[phase as usize] > 0.0;
             assert_eq!(there, phase != Phase::Kernel, "{}", phase.name());
         }
-        assert!(pace.elements > 0 && pace.elements <= 50 * plain.elements() as u64);
+        assert!(pace.elements > 0 && pace.elements <= 20 * plain.elements() as u64);
     }
 
     /// Times are kept by the place of a phase.
