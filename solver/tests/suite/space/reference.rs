@@ -767,7 +767,8 @@ impl Plain {
         for start in 0..9 {
             let (mut u, mut v) =
                 (0.1 + 0.4 * f64::from(start % 3), 0.1 + 0.4 * f64::from(start / 3));
-            for _ in 0..12 {
+            // The distance does not tell a point that is still 1e-8 of a side away: only the iteration does.
+            for _ in 0..40 {
                 let (p, q) = (add(sub(b, a), times(twist, v)), add(sub(d, a), times(twist, u)));
                 let r = sub(sub(x, a), add(times(sub(b, a), u), times(q, v)));
                 let mixed = dot(p, q) - dot(r, twist);
