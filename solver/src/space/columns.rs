@@ -177,6 +177,13 @@ impl StateSlices<'_> {
     pub fn displacement(&self) -> [&[f64]; 3] {
         [self.dx, self.dy, self.dz]
     }
+
+    /// Velocities.
+    #[inline(always)]
+    #[must_use]
+    pub fn velocity(&self) -> [&[f64]; 3] {
+        [self.vx, self.vy, self.vz]
+    }
 }
 
 impl SumsSlices<'_> {

@@ -11,23 +11,50 @@ use super::method::Method;
 
 type V3<F> = [F; 3];
 
-/// Weights of the corners in the four modes, over 8: products of two and of all three signs of a corner.
-const MODES: [[f64; 8]; 4] = {
-    let mut modes = [[0.0; 8]; 4];
-    let mut slot = 0;
-    while slot < 8 {
-        let (a, b, c) = (sign(slot, 0), sign(slot, 1), sign(slot, 2));
-        modes[0][slot] = 0.125 * a * b;
-        modes[1][slot] = 0.125 * b * c;
-        modes[2][slot] = 0.125 * c * a;
-        modes[3][slot] = 0.125 * a * b * c;
-        slot += 1;
-    }
-    modes
-};
+/// Weight of a corner in an amplitude.
+const SHARE: f64 = 0.125;
 
-const fn sign(slot: usize, axis: usize) -> f64 {
-    if slot >> axis & 1 == 1 { 1.0 } else { -1.0 }
+/// Amplitudes of the hourglass modes of one component at the eight corners: the products of the signs of
+/// the corner along two axes, in cyclic order, and along all three.
+#[inline(always)]
+pub fn modes<F: Lanes>(u: &[F; 8]) -> [F; 4] {
+    // Differences and sums along the first axis, by the bits of the other two.
+    let (mut apart, mut both) = ([F::zero(); 4], [F::zero(); 4]);
+    for k in 0..4 {
+        let (low, high) = (u[2 * k], u[2 * k + 1]);
+        (apart[k], both[k]) = (high - low, high + low);
+    }
+    let (along, across) = (apart[3] - apart[0], apart[1] - apart[2]);
+    [
+        (along + across) * SHARE,
+        ((both[3] + both[0]) - (both[1] + both[2])) * SHARE,
+        (along - across) * SHARE,
+        ((apart[3] + apart[0]) - (apart[1] + apart[2])) * SHARE,
+    ]
+}
+
+/// One component of the corners' forces against the modes: minus the transpose of [`modes`].
+#[inline(always)]
+pub fn resist<F: Lanes>([ab, bc, ca, abc]: [F; 4]) -> [F; 8] {
+    let [ab, bc, ca, abc] = [ab * SHARE, bc * SHARE, ca * SHARE, abc * SHARE];
+    let (along, across) = (ab + ca, ab - ca);
+    let odd = [abc - along, across - abc, -across - abc, along + abc];
+    let even = [bc, -bc, -bc, bc];
+    let mut out = [F::zero(); 8];
+    for k in 0..4 {
+        (out[2 * k], out[2 * k + 1]) = (odd[k] - even[k], -odd[k] - even[k]);
+    }
+    out
+}
+
+/// One component at the corners.
+#[inline(always)]
+pub fn corners<F: Lanes>(u: &[V3<F>; 9], d: usize) -> [F; 8] {
+    let mut out = [F::zero(); 8];
+    for (out, u) in out.iter_mut().zip(u) {
+        *out = u[d];
+    }
+    out
 }
 
 /// Stiffness of the modes of a body's cells.
@@ -58,13 +85,12 @@ impl Hourglass {
     fn amplitudes<F: Lanes>(u: &[V3<F>; 9]) -> [V3<F>; 5] {
         let mut out = [[F::zero(); 3]; 5];
         for d in 0..3 {
-            for slot in 0..8 {
-                for mode in 0..4 {
-                    out[mode][d] += u[slot][d] * MODES[mode][slot];
-                }
-                out[4][d] += u[slot][d] * -0.125;
+            for (out, mode) in out.iter_mut().zip(modes(&corners(u, d))) {
+                out[d] = mode;
             }
-            out[4][d] += u[8][d];
+            let corners = ((u[0][d] + u[1][d]) + (u[2][d] + u[3][d]))
+                + ((u[4][d] + u[5][d]) + (u[6][d] + u[7][d]));
+            out[4][d] = u[8][d] - corners * SHARE;
         }
         out
     }
@@ -79,7 +105,7 @@ impl Hourglass {
     pub fn energy<F: Lanes>(&self, u: &[V3<F>; 9]) -> F {
         let mut energy = F::zero();
         for (mode, a) in Self::amplitudes(u).iter().enumerate() {
-            energy += (a[0] * a[0] + a[1] * a[1] + a[2] * a[2]) * (0.5 * self.stiffness(mode));
+            energy += dot(a, a) * (0.5 * self.stiffness(mode));
         }
         energy
     }
@@ -90,8 +116,7 @@ impl Hourglass {
         let mut power = F::zero();
         let (a, b) = (Self::amplitudes(u), Self::amplitudes(v));
         for mode in 0..5 {
-            let (a, b) = (&a[mode], &b[mode]);
-            power += (a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) * self.stiffness(mode);
+            power += dot(&a[mode], &b[mode]) * self.stiffness(mode);
         }
         power
     }
@@ -102,12 +127,10 @@ impl Hourglass {
         let a = Self::amplitudes(u);
         for d in 0..3 {
             let back = a[4][d] * left * self.centroid;
-            for slot in 0..8 {
-                let mut sum = back * 0.125;
-                for mode in 0..4 {
-                    sum -= a[mode][d] * left * (self.corners * MODES[mode][slot]);
-                }
-                force[slot][d] += sum;
+            let scale = left * self.corners;
+            let push = [a[0][d] * scale, a[1][d] * scale, a[2][d] * scale, a[3][d] * scale];
+            for (force, own) in force.iter_mut().zip(resist(push)) {
+                force[d] += own + back * SHARE;
             }
             force[8][d] -= back;
         }
@@ -122,6 +145,11 @@ impl Hourglass {
     }
 }
 
+#[inline(always)]
+fn dot<F: Lanes>(a: &V3<F>, b: &V3<F>) -> F {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
 #[cfg(test)]
 mod tests {
     use super::super::lanes::F8;
@@ -129,7 +157,8 @@ mod tests {
 
     fn slots(f: impl Fn([f64; 3]) -> [f64; 3]) -> [V3<F8>; 9] {
         std::array::from_fn(|slot| {
-            let x = if slot == 8 { [0.0; 3] } else { std::array::from_fn(|d| sign(slot, d)) };
+            let sign = |d: usize| if slot >> d & 1 == 1 { 1.0 } else { -1.0 };
+            let x = if slot == 8 { [0.0; 3] } else { std::array::from_fn(sign) };
             f(x).map(F8::splat)
         })
     }

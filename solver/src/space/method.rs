@@ -48,6 +48,11 @@ pub struct Method {
     pub visc_expansion: f64,
     /// Coefficient of the viscous pressure of collapsing pyramids; zero for none.
     pub visc_volume: f64,
+    /// Coefficient of the drag against hourglass modes of solids without strength; zero for none
+    /// (decision 0019).
+    pub visc_hourglass: f64,
+    /// The same of solids with strength.
+    pub visc_hourglass_strong: f64,
     /// Steepness of the limiter: how small a neighbouring jump still explains a bond's own.
     pub limiter: f64,
     /// Heat diffusion coefficient: `k_o` of Eq. (57), or of the flux in shocks; zero for none.
@@ -96,10 +101,12 @@ impl Preset {
             heating: Heating::Pair,
             yield_norm: YieldNorm::Mises,
             viscosity: Viscosity::Limited,
-            visc_linear: 0.3,
+            visc_linear: 0.5,
             visc_quad: 1.0,
             visc_expansion: 0.5,
             visc_volume: 0.0,
+            visc_hourglass: 0.1,
+            visc_hourglass_strong: 0.0,
             limiter: 2.0,
             heat_coeff: 1.0,
             balance: 1.0,
@@ -116,8 +123,10 @@ impl Preset {
             Self::Paper => Method {
                 density: Density::Nonholonomic,
                 viscosity: Viscosity::Pairwise,
+                visc_linear: 0.3,
                 visc_quad: 0.0,
                 visc_expansion: 0.0,
+                visc_hourglass: 0.0,
                 heat_coeff: 0.1,
                 release: Release::Steps(20.0),
                 spall: false,

@@ -362,6 +362,8 @@ impl Method {
             ("method.heat_coeff", self.heat_coeff),
             ("method.visc_expansion", self.visc_expansion),
             ("method.visc_volume", self.visc_volume),
+            ("method.visc_hourglass", self.visc_hourglass),
+            ("method.visc_hourglass_strong", self.visc_hourglass_strong),
             ("method.limiter", self.limiter),
             ("method.balance", self.balance),
             ("method.hourglass", self.hourglass),

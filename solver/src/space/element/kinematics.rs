@@ -22,6 +22,25 @@ pub(super) fn gradient<F: Lanes>(u: &[V3<F>; 9], body: &Body) -> [V3<F>; 3] {
     out
 }
 
+/// Adds to the corners the transpose of [`gradient`].
+#[inline(always)]
+pub(super) fn spread<F: Lanes>(along: &[V3<F>; 3], body: &Body, to: &mut [V3<F>; 9]) {
+    let size = body.lattice.size;
+    for d in 0..3 {
+        let (fast, mid) = (along[0][d] * (0.25 / size[0]), along[1][d] * (0.25 / size[1]));
+        let up = along[2][d] * (0.25 / size[2]);
+        let (plus, minus, down) = (mid + fast, mid - fast, -up);
+        to[0][d] += down - plus;
+        to[1][d] += down - minus;
+        to[2][d] += down + minus;
+        to[3][d] += down + plus;
+        to[4][d] += up - plus;
+        to[5][d] += up - minus;
+        to[6][d] += up + minus;
+        to[7][d] += up + plus;
+    }
+}
+
 /// Deformation of up to eight elements, Eqs. (14)-(15), in lattice axes.
 pub(super) struct Kinematics<F> {
     /// `F`, row by row.
@@ -113,24 +132,13 @@ impl<F: Lanes> Kinematics<F> {
     /// Adds the corner forces of the shear stress, `-V_o P grad N`.
     #[inline(always)]
     pub(super) fn forces(&self, stress: &Sym<F>, body: &Body, live: Mask, force: &mut [V3<F>; 9]) {
-        let size = body.lattice.size;
         let piola = self.piola(stress, body);
-        for d in 0..3 {
-            let mut along = [F::zero(); 3];
-            for (axis, along) in along.iter_mut().enumerate() {
-                let scale = -0.25 * body.cell_volume / size[axis];
-                *along = (piola[3 * d + axis] * scale).keep(live);
+        let mut along = [[F::zero(); 3]; 3];
+        for (axis, along) in along.iter_mut().enumerate() {
+            for (d, along) in along.iter_mut().enumerate() {
+                *along = (piola[3 * d + axis] * -body.cell_volume).keep(live);
             }
-            let (plus, minus) = (along[1] + along[0], along[1] - along[0]);
-            let (up, down) = (along[2], -along[2]);
-            force[0][d] += down - plus;
-            force[1][d] += down - minus;
-            force[2][d] += down + minus;
-            force[3][d] += down + plus;
-            force[4][d] += up - plus;
-            force[5][d] += up - minus;
-            force[6][d] += up + minus;
-            force[7][d] += up + plus;
         }
+        spread(&along, body, force);
     }
 }

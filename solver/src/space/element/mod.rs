@@ -11,6 +11,7 @@
 //! (71)-(73) are zero, and neither exerts a force.
 
 mod bonds;
+mod drag;
 mod kinematics;
 mod particles;
 mod pressure;
@@ -20,6 +21,7 @@ mod resistance;
 pub use self::pyramid::pyramid_volumes;
 
 use self::bonds::{Loads, Seen};
+use self::drag::{Drag, Warp};
 use self::kinematics::{Kinematics, gradient};
 use self::pyramid::{Extent, Pyramid, shares, tension, tension_energy};
 use super::columns::{AllSlices, SumsSlices};
@@ -190,6 +192,12 @@ impl Group {
                 Viscosity::Limited => self.limited(&seen, (body, laws, read), &mut loads),
                 Viscosity::Pairwise => self.pairwise(&seen, (body, laws), &mut loads),
             };
+            if let Some(drag) = Drag::of(&laws.method, body) {
+                let coefficient = drag.at(sound[CENTRE], live);
+                let warp = Warp::new(&u, body);
+                warp.push(&warp.rates(&v, body), (body, coefficient), &mut loads.force);
+                damping += drag.rate(coefficient);
+            }
             if self.stiff.is_some() {
                 let of = (&seen, body, &laws.method);
                 rate_squared += self.stiffen(&pyramids, (extent.volume, &opening), of, &mut push);
@@ -259,6 +267,18 @@ impl Group {
                 let half = F::of(self.bonds[slot]) * dot(&r, &w) * (-0.5 * laws.dt);
                 heat[slot] = half;
                 heat[CENTRE] += half;
+            }
+            if let Some(drag) = Drag::of(&laws.method, body) {
+                let made: [V3<F>; 9] =
+                    self.gather_own(nodes.0.velocity(), centres.0.velocity(), first);
+                let warp = Warp::new(&u, body);
+                let (made, mean) = (warp.rates(&made, body), warp.rates(&v, body));
+                let sound = F::load_some(centres.1.sound, self.centre as usize - first[1]);
+                let warmth = drag::power(&made, &mean) * drag.at(sound, self.live) * laws.dt;
+                heat[CENTRE] += warmth * 0.5;
+                for heat in &mut heat[..CENTRE] {
+                    *heat += warmth * 0.0625;
+                }
             }
             if let Some(stiff) = &self.stiff {
                 for (k, face) in FACES.into_iter().enumerate() {

@@ -647,7 +647,15 @@ impl Plain {
         });
         self.elements[e].bonds = bonds;
         let mass = 0.5 * solid.material.density * solid.volume;
-        let damping = stiffest * 16.0 / 3.0 / mass;
+        let mut damping = stiffest * 16.0 / 3.0 / mass;
+        let drag = self.drag(e);
+        damping += drag / mass;
+        for weights in self.hourglass_weights(&now, body) {
+            let rate = amplitude(&weights, |slot| self.particles[slots[slot]].v);
+            for slot in 0..8 {
+                forces[slot] = sub(forces[slot], times(rate, drag * weights[slot]));
+            }
+        }
         self.rate =
             self.rate.max(0.25 * damping + 0.5 * (0.25 * damping * damping + squared).sqrt());
         for slot in 0..9 {
@@ -994,6 +1002,42 @@ impl Plain {
         if self.dt > 0.0 { dt.min(1.05 * self.dt) } else { dt }
     }
 
+    /// Coefficient of the drag against the hourglass modes of an element.
+    fn drag(&self, e: usize) -> f64 {
+        let element = &self.elements[e];
+        let solid = &self.bodies[element.body];
+        let kappa = if solid.mu > 0.0 {
+            self.method.visc_hourglass_strong
+        } else {
+            self.method.visc_hourglass
+        };
+        let sound = self.particles[element.centre].sound;
+        kappa * solid.material.density * sound * solid.volume.powf(2.0 / 3.0)
+    }
+
+    /// Weights of the corners in the four hourglass modes, such that no linear field has an amplitude.
+    fn hourglass_weights(&self, now: &[V; 9], body: usize) -> Vec<[f64; 8]> {
+        let reference = self.shape_gradients(body);
+        let f = matrix(|i, j| (0..8).map(|slot| now[slot][i] * reference[slot][j]).sum());
+        let inverse = scaled(&transposed(&cofactors(&f)), 1.0 / determinant(&f));
+        let present = reference.map(|b| {
+            let row = |j: usize| (0..3).map(|k| b[k] * inverse[k][j]).sum::<f64>();
+            [row(0), row(1), row(2)]
+        });
+        let sign = |slot: usize, axis: usize| if slot >> axis & 1 == 1 { 1.0 } else { -1.0 };
+        let modes = [&[0, 1][..], &[1, 2], &[2, 0], &[0, 1, 2]];
+        modes
+            .into_iter()
+            .map(|axes| {
+                let mode: [f64; 8] = std::array::from_fn(|slot| {
+                    0.125 * axes.iter().map(|&axis| sign(slot, axis)).product::<f64>()
+                });
+                let warp = amplitude(&mode, |slot| now[slot]);
+                std::array::from_fn(|slot| mode[slot] - dot(present[slot], warp))
+            })
+            .collect()
+    }
+
     /// Rates over the mean velocity of the step.
     fn work(&mut self, kick: f64) {
         for e in 0..self.elements.len() {
@@ -1003,6 +1047,19 @@ impl Plain {
             let (_, now) = self.points(e);
             let slots = self.slots(e);
             let mean = slots.map(|i| self.particles[i].mean);
+            let power: f64 = self
+                .hourglass_weights(&now, self.elements[e].body)
+                .iter()
+                .map(|mode| {
+                    let before = |p: &Particle| sub(times(p.mean, 2.0), p.v);
+                    let made = amplitude(mode, |slot| before(&self.particles[slots[slot]]));
+                    dot(made, amplitude(mode, |slot| mean[slot]))
+                })
+                .sum();
+            for slot in 0..9 {
+                let share = if slot == 8 { 0.5 } else { 0.0625 };
+                self.particles[slots[slot]].heat += share * kick * self.drag(e) * power;
+            }
             for face in faces() {
                 let slopes = pyramid_gradient(&now, face);
                 let rate: f64 = (0..9).map(|slot| dot(slopes[slot], mean[slot])).sum();
@@ -1116,6 +1173,11 @@ impl Plain {
             }
         }
     }
+}
+
+/// Sum of a field of the corners with these weights.
+fn amplitude(mode: &[f64; 8], v: impl Fn(usize) -> V) -> V {
+    (0..8).fold([0.0; 3], |sum, slot| add(sum, times(v(slot), mode[slot])))
 }
 
 fn corners_of(centre: [i32; 3]) -> [[i32; 3]; 8] {

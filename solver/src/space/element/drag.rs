@@ -1,0 +1,146 @@
+//! Drag against hourglass modes, which keeps lattices of solids without strength from warping (decision
+//! 0019).
+
+use super::kinematics::{gradient, spread};
+use super::{V3, cross, dot};
+use crate::space::hourglass::{corners, modes, resist};
+use crate::space::lanes::{Lanes, Mask};
+use crate::space::mesh::Body;
+use crate::space::method::Method;
+
+/// Least volume ratio by which the shape of a cell is undone; one below is dying.
+const LEAST: f64 = 1e-2;
+
+/// Drag of the cells of a body: `-kappa rho_o c V_o^(2/3)` times the rates of the amplitudes.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Drag {
+    /// Over the sound speed.
+    coefficient: f64,
+    /// Mass of a cell.
+    mass: f64,
+}
+
+impl Drag {
+    /// As a method has it for a body; a gas has none: there pyramids resist (decision 0017).
+    #[inline(always)]
+    pub(super) fn of(method: &Method, body: &Body) -> Option<Self> {
+        let strong = body.solid.mu > 0.0;
+        let kappa = if strong { method.visc_hourglass_strong } else { method.visc_hourglass };
+        if kappa == 0.0 || body.is_gas() {
+            return None;
+        }
+        // The area of the bonds is 3/4 of a face's.
+        let face = 4.0 / 3.0 * body.bond_areas[0];
+        let mass = body.rho_0 * body.cell_volume;
+        Some(Self { coefficient: kappa * body.rho_0 * face, mass })
+    }
+
+    /// Coefficient where the sound speed is this, of live elements.
+    #[inline(always)]
+    pub(super) fn at<F: Lanes>(&self, sound: F, live: Mask) -> F {
+        (sound * self.coefficient).keep(live)
+    }
+
+    /// Rate at which a mode is damped with this coefficient.
+    #[inline(always)]
+    pub(super) fn rate<F: Lanes>(&self, coefficient: F) -> F {
+        // Half of the mass of a cell is at its corners.
+        coefficient * (2.0 / self.mass)
+    }
+}
+
+/// The hourglass modes of cells as they are: the weights of D. P. Flanagan and T. Belytschko (1981), by
+/// which every velocity field that is linear in the present positions has no amplitude. So no rotation
+/// and no homogeneous flow is resisted, and no moment made, in a deformed cell either.
+pub(super) struct Warp<F> {
+    /// Amplitudes of position, through the inverse of the deformation: along the lattice axes, by mode.
+    back: [V3<F>; 4],
+}
+
+impl<F: Lanes> Warp<F> {
+    /// At displacements.
+    #[inline(always)]
+    pub(super) fn new(u: &[V3<F>; 9], body: &Body) -> Self {
+        let mut along = gradient(u, body);
+        for (along, axis) in along.iter_mut().zip(&body.lattice.axes) {
+            for (own, axis) in along.iter_mut().zip(axis) {
+                *own += F::splat(*axis);
+            }
+        }
+        let [a, b, c] = along;
+        let across = [cross(&b, &c), cross(&c, &a), cross(&a, &b)];
+        let inverse = F::splat(1.0) / dot(&a, &across[0]).max(F::splat(LEAST));
+        let warp = amplitudes(u);
+        let mut back = [[F::zero(); 3]; 4];
+        for (back, warp) in back.iter_mut().zip(&warp) {
+            for (back, across) in back.iter_mut().zip(&across) {
+                *back = dot(across, warp) * inverse;
+            }
+        }
+        Self { back }
+    }
+
+    /// Rates of the amplitudes, but for what a linear field makes of them.
+    #[inline(always)]
+    pub(super) fn rates(&self, v: &[V3<F>; 9], body: &Body) -> [V3<F>; 4] {
+        let flow = gradient(v, body);
+        let mut rates = amplitudes(v);
+        for (rates, back) in rates.iter_mut().zip(&self.back) {
+            for (flow, back) in flow.iter().zip(back) {
+                for d in 0..3 {
+                    rates[d] -= flow[d] * *back;
+                }
+            }
+        }
+        rates
+    }
+
+    /// Adds the forces on the corners against rates.
+    #[inline(always)]
+    pub(super) fn push(
+        &self,
+        rates: &[V3<F>; 4],
+        (body, coefficient): (&Body, F),
+        force: &mut [V3<F>; 9],
+    ) {
+        let mut flow = [[F::zero(); 3]; 3];
+        for (rates, back) in rates.iter().zip(&self.back) {
+            for (flow, back) in flow.iter_mut().zip(back) {
+                for d in 0..3 {
+                    flow[d] += rates[d] * (*back * coefficient);
+                }
+            }
+        }
+        spread(&flow, body, force);
+        for d in 0..3 {
+            let mut modes = [F::zero(); 4];
+            for (mode, rates) in modes.iter_mut().zip(rates) {
+                *mode = rates[d] * coefficient;
+            }
+            for (force, own) in force.iter_mut().zip(resist(modes)) {
+                force[d] += own;
+            }
+        }
+    }
+}
+
+/// What forces against `made` take from motion per time, with rates `mean`.
+#[inline(always)]
+pub(super) fn power<F: Lanes>(made: &[V3<F>; 4], mean: &[V3<F>; 4]) -> F {
+    let mut sum = F::zero();
+    for (made, mean) in made.iter().zip(mean) {
+        sum += dot(made, mean);
+    }
+    sum
+}
+
+#[inline(always)]
+fn amplitudes<F: Lanes>(u: &[V3<F>; 9]) -> [V3<F>; 4] {
+    let mut out = [[F::zero(); 3]; 4];
+    for d in 0..3 {
+        for (out, mode) in out.iter_mut().zip(modes(&corners(u, d))) {
+            out[d] = mode;
+        }
+    }
+    out
+}
