@@ -1,15 +1,29 @@
 //! Deformation of a cell, Eqs. (14)-(15), and the forces of its shear.
 
 use super::{V3, cross, dot};
+use crate::space::cells::Cells;
 use crate::space::lanes::{Lanes, Mask, each};
-use crate::space::mesh::Body;
 use crate::space::strength::{Sym, contract};
 
 /// Gradient of a corner field along the lattice axes, one vector an axis: one-point integration.
 #[inline(always)]
-pub(super) fn gradient<F: Lanes>(u: &[V3<F>; 9], body: &Body) -> [V3<F>; 3] {
+pub(super) fn gradient<F: Lanes, const MAPPED: bool>(
+    u: &[V3<F>; 9],
+    cells: &Cells<'_, MAPPED>,
+) -> [V3<F>; 3] {
     let mut out = [[F::zero(); 3]; 3];
-    let size = body.lattice.size;
+    if MAPPED {
+        for slot in 0..8 {
+            for (axis, out) in out.iter_mut().enumerate() {
+                let weight = cells.weight::<F>(slot, axis);
+                for (out, u) in out.iter_mut().zip(&u[slot]) {
+                    *out += weight * *u;
+                }
+            }
+        }
+        return out;
+    }
+    let size = cells.body.lattice.size;
     for d in 0..3 {
         let s = |slot: usize| u[slot][d];
         // Sums and differences along the fast axis serve all three.
@@ -48,10 +62,10 @@ pub(super) fn right_cauchy_green<F: Lanes>(f: &[F; 9]) -> Sym<F> {
 
 impl<F: Lanes> Kinematics<F> {
     #[inline(always)]
-    pub(super) fn new(u: &[V3<F>; 9], body: &Body) -> Self {
-        let along = gradient(u, body);
+    pub(super) fn new<const MAPPED: bool>(u: &[V3<F>; 9], cells: &Cells<'_, MAPPED>) -> Self {
+        let along = gradient(u, cells);
         let mut f = [F::zero(); 9];
-        for (row, axis) in body.lattice.axes.iter().enumerate() {
+        for (row, axis) in cells.body.lattice.axes.iter().enumerate() {
             for column in 0..3 {
                 let g = &along[column];
                 let b = g[0] * axis[0] + g[1] * axis[1] + g[2] * axis[2];
@@ -89,11 +103,10 @@ impl<F: Lanes> Kinematics<F> {
     /// First Piola-Kirchhoff stress of the shear energy (24) by the strain (14)-(16), rows turned to global
     /// axes.
     #[inline(always)]
-    pub(super) fn piola(&self, s: &Sym<F>, body: &Body) -> [F; 9] {
+    pub(super) fn piola(&self, s: &Sym<F>, axes: &[[f64; 3]; 3]) -> [F; 9] {
         let q = self.root * self.root;
         let third = contract(s, &self.c) * (1.0 / 3.0) / self.jacobian;
         let full = [s[0], s[3], s[4], s[3], s[1], s[5], s[4], s[5], s[2]];
-        let axes = &body.lattice.axes;
         let mut out = [F::zero(); 9];
         for column in 0..3 {
             let mut own = [F::zero(); 3];
@@ -112,9 +125,27 @@ impl<F: Lanes> Kinematics<F> {
 
     /// Adds the corner forces of the shear stress, `-V_o P grad N`.
     #[inline(always)]
-    pub(super) fn forces(&self, stress: &Sym<F>, body: &Body, live: Mask, force: &mut [V3<F>; 9]) {
+    pub(super) fn forces<const MAPPED: bool>(
+        &self,
+        stress: &Sym<F>,
+        cells: &Cells<'_, MAPPED>,
+        live: Mask,
+        force: &mut [V3<F>; 9],
+    ) {
+        let body = cells.body;
+        let piola = self.piola(stress, &body.lattice.axes);
+        if MAPPED {
+            let volume = cells.volume::<F>();
+            for slot in 0..8 {
+                let weight: V3<F> = each!(axis => cells.weight::<F>(slot, axis) * volume);
+                for d in 0..3 {
+                    let own = [piola[3 * d], piola[3 * d + 1], piola[3 * d + 2]];
+                    force[slot][d] -= dot(&own, &weight).keep(live);
+                }
+            }
+            return;
+        }
         let size = body.lattice.size;
-        let piola = self.piola(stress, body);
         for d in 0..3 {
             let mut along = [F::zero(); 3];
             for (axis, along) in along.iter_mut().enumerate() {
