@@ -136,11 +136,11 @@ impl<F: Lanes> Kinematics<F> {
         let piola = self.piola(stress, &body.lattice.axes);
         if MAPPED {
             let volume = cells.volume::<F>();
-            for slot in 0..8 {
+            for (slot, force) in force[..8].iter_mut().enumerate() {
                 let weight: V3<F> = each!(axis => cells.weight::<F>(slot, axis) * volume);
-                for d in 0..3 {
+                for (d, force) in force.iter_mut().enumerate() {
                     let own = [piola[3 * d], piola[3 * d + 1], piola[3 * d + 2]];
-                    force[slot][d] -= dot(&own, &weight).keep(live);
+                    *force -= dot(&own, &weight).keep(live);
                 }
             }
             return;

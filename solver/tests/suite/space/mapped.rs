@@ -157,7 +157,7 @@ fn uniform_stress_is_in_equilibrium() {
         let (r, angle) = (x[0].hypot(x[1]), x[1].atan2(x[0]));
         let depth = (r - 1.0).min(1.8 - r).min(r * angle).min(r * (0.8 - angle));
         if depth.min(x[2]).min(0.8 - x[2]) > 0.35 {
-            inner = inner.max(off)
+            inner = inner.max(off);
         }
         outer = outer.max(off);
     }
