@@ -338,6 +338,16 @@ impl Contacts {
                 let body = &mesh.bodies[run[0] as usize];
                 let steps = body.lattice.steps();
                 let each = members[at..].iter().zip(&place[at..]).zip(to.by_ref());
+                if body.lattice.is_mapped() {
+                    for ((&i, &place), ((x, y), z)) in each.take(run.len()) {
+                        let start = body.lattice.position(place);
+                        for (d, x) in [x, y, z].into_iter().enumerate() {
+                            *x = start[d] + (body.way[d] + own[d][i as usize]);
+                        }
+                    }
+                    at += run.len();
+                    continue;
+                }
                 for ((&i, place), ((x, y), z)) in each.take(run.len()) {
                     let place = place.map(f64::from);
                     for (d, x) in [x, y, z].into_iter().enumerate() {

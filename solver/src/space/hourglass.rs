@@ -5,8 +5,8 @@
 //! and the energy depends on its size alone. So translation, rotation and homogeneous strain stay free
 //! of force, and momentum, angular momentum and energy are kept.
 
+use super::cells::Cells;
 use super::lanes::Lanes;
-use super::mesh::Body;
 use super::method::Method;
 
 type V3<F> = [F; 3];
@@ -57,32 +57,33 @@ pub fn corners<F: Lanes>(u: &[V3<F>; 9], d: usize) -> [F; 8] {
     out
 }
 
-/// Stiffness of the modes of a body's cells.
+/// Stiffness of the modes of cells.
 #[derive(Debug, Clone, Copy)]
-pub struct Hourglass {
+pub struct Hourglass<F> {
     /// Of the hourglass modes: energy over the square of an amplitude, twice.
-    corners: f64,
+    corners: F,
     /// Of the centroid against the corners.
-    centroid: f64,
+    centroid: F,
 }
 
-impl Hourglass {
+impl<F: Lanes> Hourglass<F> {
     /// As a method has it; none if it has none, and none of a gas, whose modes have no elastic modulus.
     #[inline(always)]
-    pub fn of(method: &Method, body: &Body) -> Option<Self> {
+    pub fn of<const MAPPED: bool>(method: &Method, cells: &Cells<'_, MAPPED>) -> Option<Self> {
+        let body = cells.body;
         let none = method.hourglass == 0.0 && method.centring == 0.0;
         if none || body.solid.sound == 0.0 {
             return None;
         }
         let sound = body.solid.sound;
-        let edge = body.solid.edge;
-        let unit = body.rho_0 * sound * sound * body.cell_volume / (edge * edge);
-        Some(Self { corners: method.hourglass * unit, centroid: method.centring * unit })
+        let mass_rate: F = cells.volume_as(|volume| body.rho_0 * sound * sound * volume);
+        let unit = mass_rate / cells.edge_as(|edge| edge * edge);
+        Some(Self { corners: unit * method.hourglass, centroid: unit * method.centring })
     }
 
     /// Amplitudes of the corners' modes and of the centroid's.
     #[inline(always)]
-    fn amplitudes<F: Lanes>(u: &[V3<F>; 9]) -> [V3<F>; 5] {
+    fn amplitudes(u: &[V3<F>; 9]) -> [V3<F>; 5] {
         let mut out = [[F::zero(); 3]; 5];
         for d in 0..3 {
             for (out, mode) in out.iter_mut().zip(modes(&corners(u, d))) {
@@ -96,23 +97,23 @@ impl Hourglass {
     }
 
     #[inline(always)]
-    fn stiffness(&self, mode: usize) -> f64 {
+    fn stiffness(&self, mode: usize) -> F {
         if mode < 4 { self.corners } else { self.centroid }
     }
 
     /// Energy of displacements.
     #[inline(always)]
-    pub fn energy<F: Lanes>(&self, u: &[V3<F>; 9]) -> F {
+    pub fn energy(&self, u: &[V3<F>; 9]) -> F {
         let mut energy = F::zero();
         for (mode, a) in Self::amplitudes(u).iter().enumerate() {
-            energy += dot(a, a) * (0.5 * self.stiffness(mode));
+            energy += dot(a, a) * (self.stiffness(mode) * 0.5);
         }
         energy
     }
 
     /// Rate of that energy with velocities.
     #[inline(always)]
-    pub fn power<F: Lanes>(&self, u: &[V3<F>; 9], v: &[V3<F>; 9]) -> F {
+    pub fn power(&self, u: &[V3<F>; 9], v: &[V3<F>; 9]) -> F {
         let mut power = F::zero();
         let (a, b) = (Self::amplitudes(u), Self::amplitudes(v));
         for mode in 0..5 {
@@ -123,7 +124,7 @@ impl Hourglass {
 
     /// Adds the forces, of as much of the stiffness as is left.
     #[inline(always)]
-    pub fn push<F: Lanes>(&self, u: &[V3<F>; 9], left: F, force: &mut [V3<F>; 9]) {
+    pub fn push(&self, u: &[V3<F>; 9], left: F, force: &mut [V3<F>; 9]) {
         let a = Self::amplitudes(u);
         for d in 0..3 {
             let back = a[4][d] * left * self.centroid;
@@ -138,10 +139,10 @@ impl Hourglass {
 
     /// Square of the fastest rate of the modes.
     #[inline(always)]
-    pub fn rate_squared(&self, body: &Body) -> f64 {
+    pub fn rate_squared<const MAPPED: bool>(&self, cells: &Cells<'_, MAPPED>) -> F {
         // Half of the mass of a cell is at its corners, half at its centroid.
-        let mass = 0.5 * body.rho_0 * body.cell_volume;
-        (self.corners + 2.0 * self.centroid) / mass
+        let mass: F = cells.volume_as(|volume| 0.5 * cells.body.rho_0 * volume);
+        (self.corners + self.centroid * 2.0) / mass
     }
 }
 
@@ -165,7 +166,7 @@ mod tests {
 
     #[test]
     fn affine_motions_have_no_energy_and_the_modes_have() {
-        let glass = Hourglass { corners: 2.0, centroid: 2.0 };
+        let glass = Hourglass { corners: F8::splat(2.0), centroid: F8::splat(2.0) };
         let affine = slots(|[x, y, z]| [1.0 + 2.0 * x - y, 0.5 * z + 3.0 * y, x + y + z]);
         assert!(glass.energy(&affine).0[0].abs() < 1e-28);
         let bent = slots(|[x, y, _]| [x * y, 0.0, 0.0]);
@@ -176,7 +177,7 @@ mod tests {
 
     #[test]
     fn forces_are_minus_the_gradient_of_the_energy() {
-        let glass = Hourglass { corners: 2.0, centroid: 0.7 };
+        let glass = Hourglass { corners: F8::splat(2.0), centroid: F8::splat(0.7) };
         let u = slots(|[x, y, z]| [x * y + z, x * z * y + y, 0.3 * z * y - x * x]);
         let mut force = [[F8::zero(); 3]; 9];
         glass.push(&u, F8::splat(1.0), &mut force);

@@ -1,11 +1,13 @@
 //! The lattice of one body: which cells fill its shape, and its particles in lattice order.
 //!
-//! Particles sit at the nodes and centroids of equal cells. The axes of the lattice are called fast,
-//! mid and slow: fast runs along the most cells, so that eight cells side by side are eight numbers
-//! in a row; slow is the second longest, so that whole planes of cells can go to different threads.
-//! Positions are counted in half cells: nodes have even coordinates, centroids odd ones.
+//! Particles sit at the nodes and centroids of cells, equal ones unless a mapping has moved the nodes
+//! (decision 0018). The axes of the lattice are called fast, mid and slow: fast runs along the most
+//! cells, so that eight cells side by side are eight numbers in a row; slow is the second longest, so
+//! that whole planes of cells can go to different threads. Positions are counted in half cells: nodes
+//! have even coordinates, centroids odd ones.
 
-use super::scene::{Body, Shape};
+use super::mapping::Mapping;
+use super::scene::{Body, Shape, Wall};
 
 /// Sixteenths of a cell's mass at its centroid; each node has one of them.
 pub const CENTROID_SHARE: u8 = 8;
@@ -51,9 +53,12 @@ pub struct Lattice {
     pub cell_planes: Vec<usize>,
     node_at: Vec<u32>,
     cell_at: Vec<u32>,
+    /// Where a mapping has moved the nodes and centroids; empty without one.
+    moved: [Vec<[f64; 3]>; 2],
 }
 
-/// Edges of the cells of a body along its own axes: the cells have the volume of the shape.
+/// Edges of the cells of a body along its own axes, without a mapping: the cells have the volume of the
+/// shape.
 #[must_use]
 pub fn cell_size(body: &Body) -> [f64; 3] {
     let extent = body.shape.extent();
@@ -102,7 +107,7 @@ impl Lattice {
     #[must_use]
     pub fn new(body: &Body) -> Self {
         let own = cell_size(body);
-        let order = axis_order(body.cells);
+        let order = axis_order(body);
         let turned = rotation(body.turn.axis, body.turn.degrees.to_radians());
         let (fast, slow) = (turned[order[0]], turned[order[2]]);
         // Right-handed, whichever way the mid axis then points: the shapes are symmetric.
@@ -135,9 +140,13 @@ impl Lattice {
             cell_planes: Vec::new(),
             node_at: Vec::new(),
             cell_at: Vec::new(),
+            moved: [Vec::new(), Vec::new()],
         };
         lattice.fill(&in_shape);
         lattice.connect();
+        if let Some(mapping) = body.mapping {
+            lattice.move_by(&mapping);
+        }
         lattice
     }
 
@@ -232,22 +241,59 @@ impl Lattice {
         }
     }
 
-    /// Position of these coordinates at the start.
-    #[must_use]
-    pub fn position(&self, at: [i16; 3]) -> [f64; 3] {
-        std::array::from_fn(|d| self.coordinate(at, d))
+    /// Moves the nodes, and the centroids to the middle of their corners.
+    fn move_by(&mut self, mapping: &Mapping) {
+        let nodes = self.nodes.iter().map(|&at| mapping.apply(self.regular(at))).collect();
+        self.moved[0] = nodes;
+        let middle = |&at: &[i16; 3]| {
+            let corner = |slot: usize| {
+                let side = |axis: usize| if slot >> axis & 1 == 1 { 1 } else { -1 };
+                self.position([at[0] + side(0), at[1] + side(1), at[2] + side(2)])
+            };
+            let corners: [[f64; 3]; 8] = std::array::from_fn(corner);
+            std::array::from_fn(|d| corners.iter().map(|x| 0.125 * x[d]).sum())
+        };
+        self.moved[1] = self.centroids.iter().map(middle).collect();
     }
 
-    /// One component of that position.
+    /// Whether a mapping has moved its particles.
     #[inline(always)]
     #[must_use]
-    pub fn coordinate(&self, at: [i16; 3], d: usize) -> f64 {
-        let steps = self.steps();
-        let along = |k: usize| steps[k][d] * f64::from(at[k]);
-        self.origin[d] + along(0) + along(1) + along(2)
+    pub fn is_mapped(&self) -> bool {
+        !self.moved[0].is_empty()
     }
 
-    /// Ways of one half cell along the fast, mid and slow axes.
+    /// Whether all nodes with this coordinate along a lattice axis lie on a wall.
+    #[must_use]
+    pub fn lies_on(&self, wall: &Wall, (axis, coordinate): (usize, i16)) -> bool {
+        let tolerance = 1e-6 * self.cell_volume().cbrt();
+        let mut nodes = self.nodes.iter().filter(|at| at[axis] == coordinate);
+        nodes.all(|&at| (self.position(at)[wall.axis] - wall.position).abs() < tolerance)
+    }
+
+    /// Position of the particle with these coordinates at the start.
+    #[must_use]
+    pub fn position(&self, at: [i16; 3]) -> [f64; 3] {
+        if self.is_mapped() {
+            match at[0] & 1 {
+                0 => self.moved[0][self.node(at) as usize],
+                _ => self.moved[1][self.cell(at) as usize],
+            }
+        } else {
+            self.regular(at)
+        }
+    }
+
+    /// The same without a mapping.
+    fn regular(&self, at: [i16; 3]) -> [f64; 3] {
+        let steps = self.steps();
+        std::array::from_fn(|d| {
+            let along = |k: usize| steps[k][d] * f64::from(at[k]);
+            self.origin[d] + along(0) + along(1) + along(2)
+        })
+    }
+
+    /// Ways of one half cell along the fast, mid and slow axes, without a mapping.
     #[inline(always)]
     #[must_use]
     pub fn steps(&self) -> [[f64; 3]; 3] {
@@ -259,27 +305,34 @@ impl Lattice {
     pub fn bytes(&self) -> usize {
         let places = self.nodes.capacity() + self.centroids.capacity();
         let maps = self.node_at.capacity() + self.cell_at.capacity();
+        let moved = self.moved[0].capacity() + self.moved[1].capacity();
         6 * places
+            + 24 * moved
             + self.share.capacity()
             + 4 * maps
             + self.runs.capacity() * std::mem::size_of::<Run>()
     }
 
-    /// Volume of a cell.
+    /// Volume of a cell, without a mapping.
     #[must_use]
     pub fn cell_volume(&self) -> f64 {
         self.size.iter().product()
     }
+}
 
-    /// Distance at which particles of the lattice touch, `2 beta h`: half the diagonal of a cell.
-    #[must_use]
-    pub fn contact_length(&self) -> f64 {
-        0.5 * 3f64.sqrt() * self.cell_volume().cbrt()
-    }
+/// Distance at which particles of cells of this volume touch, `2 beta h`: half the diagonal of a cube.
+#[must_use]
+pub fn contact_length(cell_volume: f64) -> f64 {
+    0.5 * 3f64.sqrt() * cell_volume.cbrt()
 }
 
 /// Axes of a body in the order fast, mid, slow.
-fn axis_order(cells: [usize; 3]) -> [usize; 3] {
+fn axis_order(body: &Body) -> [usize; 3] {
+    let cells = body.cells;
+    if let Some(Mapping::Wrap { .. }) = body.mapping {
+        // A sector ends on mirrors, which elements see across the mid and slow axes alone.
+        return [0, 2, 1];
+    }
     let mut order = [0, 1, 2];
     order.sort_by_key(|&axis| std::cmp::Reverse(cells[axis]));
     let [longest, second, shortest] = order;

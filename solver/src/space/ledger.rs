@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::cells::Cells;
 use super::lanes::Lanes;
 use super::simulation::Simulation;
 
@@ -157,8 +158,12 @@ impl Simulation {
         let velocity: [&[f64]; 3] = [&state.vx, &state.vy, &state.vz];
         for group in &self.groups {
             let body = &self.mesh.bodies[group.body as usize];
-            let [shear, tension, hourglass] =
-                group.stored(body, (displacement, velocity), (&self.method, self.dt));
+            let (columns, step) = ((displacement, velocity), (&self.method, self.dt));
+            let [shear, tension, hourglass] = if body.mapped.is_empty() {
+                group.stored(&Cells::<false>::new(body, group.centre), columns, step)
+            } else {
+                group.stored(&Cells::<true>::new(body, group.centre), columns, step)
+            };
             all[group.body as usize].shear += shear.sum();
             all[group.body as usize].tension += tension.sum();
             all[group.body as usize].hourglass += hourglass.sum();

@@ -7,9 +7,10 @@
 
 use std::ops::Range;
 
+use super::cells::{Mapped, bond_areas};
 use super::eos::Eos;
 use super::lanes::{F8, LANES, Lanes, Mask};
-use super::lattice::{CENTROID_SHARE, Lattice};
+use super::lattice::{CENTROID_SHARE, Lattice, contact_length};
 use super::method::Method;
 use super::scene::{Body as BodyData, Hold, Scene, Wall};
 use super::strength::Solid;
@@ -45,16 +46,18 @@ pub struct Body {
     pub way: [f64; 3],
     /// Contact length `2 beta h` of its particles.
     pub length: f64,
-    /// Volume of a cell.
+    /// Volume of a cell; the mean of mapped ones.
     pub cell_volume: f64,
+    /// Its cells, if they are not all alike: they have shapes of their own then, and their particles
+    /// masses of their own.
+    pub mapped: Mapped,
     /// The corners of a cell from its centre, slot by slot.
     pub corners: [[f64; 3]; 8],
     /// Reference volumes of the six pyramids, by the arithmetic of the elements.
     pub pyramids: [f64; 6],
     /// One over them.
     pub per_pyramid: [f64; 6],
-    /// Area of the bonds of its elements for the limited viscosity, `3/4 a^2`, and `V_o^(2/3)` for
-    /// the printed one.
+    /// Area of the bonds of its elements, by [`bond_areas`].
     pub bond_areas: [f64; 2],
     /// Slope of the shock speed.
     pub slope: f64,
@@ -220,6 +223,19 @@ impl Mesh {
             self.mass[i] = f64::from(share) * unit;
             self.ratio[i] = 1.0;
         }
+        if body.mapped.is_empty() {
+            return;
+        }
+        for (k, &at) in body.lattice.nodes.iter().enumerate() {
+            let shares = body.lattice.cells_round(at);
+            // From the node the cell lies in this octant: the node is its opposite corner.
+            let volume: f64 =
+                shares.map(|(octant, cell)| body.mapped.share(cell as usize, 7 - octant)).sum();
+            self.mass[body.nodes.start + k] = body.rho_0 * volume;
+        }
+        for cell in 0..body.mapped.len() {
+            self.mass[body.centroids.start + cell] = 0.5 * body.rho_0 * body.mapped.volume(cell);
+        }
     }
 
     fn group(&mut self, body: &Body, index: usize, groups: &mut Vec<Group>) {
@@ -292,11 +308,15 @@ impl Mesh {
             let at = [at[0] + side(0), at[1] + side(1), at[2] + side(2)];
             let own = &self.bodies[body];
             let i = own.nodes.start + own.lattice.node(at) as usize;
-            let cells =
-                own.lattice.cells_round(at).map(|(_, cell)| own.centroids.start + cell as usize);
-            let live = cells.filter(|&cell| self.ratio[cell] > 0.0).count();
-            let ratio = f64::from(self.share[i]) / live as f64;
-            self.ratio[i] = if live > 0 { ratio } else { 0.0 };
+            let is_live = |cell: &u32| self.ratio[own.centroids.start + *cell as usize] > 0.0;
+            let cells = own.lattice.cells_round(at);
+            let live = cells.filter(|(_, cell)| is_live(cell));
+            self.ratio[i] = if own.mapped.is_empty() {
+                part(f64::from(self.share[i]), live.map(|_| 1.0).sum())
+            } else {
+                let share = |(octant, cell)| own.mapped.share(cell as usize, 7 - octant);
+                part(self.mass[i] / own.rho_0, live.map(share).sum())
+            };
         }
     }
 
@@ -304,7 +324,8 @@ impl Mesh {
     #[must_use]
     pub fn bytes(&self) -> usize {
         let lattices: usize = self.bodies.iter().map(|body| body.lattice.bytes()).sum();
-        16 * self.mass.capacity() + self.share.capacity() + lattices
+        let mapped: usize = self.bodies.iter().map(|body| body.mapped.bytes()).sum();
+        16 * self.mass.capacity() + self.share.capacity() + lattices + mapped
     }
 
     /// Piece of a particle.
@@ -411,17 +432,23 @@ impl Body {
         let eos = Eos::new(material);
         let corners = corners(&lattice);
         let pyramids = super::element::pyramid_volumes(&corners);
+        let mapped = Mapped::new(&lattice, scene.method.balance);
+        let [cell_volume, edge] = if mapped.is_empty() {
+            [lattice.cell_volume(), lattice.size.iter().copied().fold(f64::INFINITY, f64::min)]
+        } else {
+            [mapped.mean_volume(), mapped.edge()]
+        };
         Self {
             material: index,
             eos,
-            solid: Solid::new(material, &scene.method, &lattice),
+            solid: Solid::new(material, &scene.method, edge),
             rho_0: material.density,
-            length: lattice.contact_length(),
-            cell_volume: lattice.cell_volume(),
+            length: contact_length(cell_volume),
+            cell_volume,
+            mapped,
             pyramids,
             per_pyramid: pyramids.map(|volume| 1.0 / volume),
-            bond_areas: [0.75, 0.5f64.powf(2.0 / 3.0)]
-                .map(|share| share * lattice.cell_volume().powf(2.0 / 3.0)),
+            bond_areas: bond_areas(cell_volume),
             slope: eos.slope(),
             mirrors: mirrors(scene, &lattice, data.velocity),
             corners,
@@ -435,18 +462,19 @@ impl Body {
 }
 
 impl Body {
-    /// Shortest edge of a cell.
+    /// Shortest edge of a cell; of mapped cells, the smallest volume over the largest face.
     #[inline(always)]
     #[must_use]
     pub fn edge(&self) -> f64 {
         self.solid.edge
     }
 
-    /// Rate of damping of a particle inside per viscosity coefficient of its eight bonds.
+    /// Rate of damping of a particle inside per viscosity coefficient of its eight bonds, among cells of
+    /// this volume.
     #[inline(always)]
     #[must_use]
-    pub fn damping(&self) -> f64 {
-        let mass = 0.5 * self.rho_0 * self.cell_volume;
+    pub fn damping(&self, volume: f64) -> f64 {
+        let mass = 0.5 * self.rho_0 * volume;
         2.0 / 3.0 * 8.0 / mass
     }
 
@@ -483,6 +511,11 @@ impl Body {
     }
 }
 
+/// A whole over what is left of it; zero if nothing is.
+fn part(whole: f64, left: f64) -> f64 {
+    if left > 0.0 { whole / left } else { 0.0 }
+}
+
 /// The eights that a range lies in.
 fn eights_round(range: &Range<usize>) -> Range<usize> {
     range.start / LANES * LANES..range.end.next_multiple_of(LANES)
@@ -494,6 +527,14 @@ fn mirrors(scene: &Scene, lattice: &Lattice, velocity: [f64; 3]) -> [[Option<usi
     let still = |wall: &&Wall| wall.hold == Hold::Mirror && velocity[wall.axis] == 0.0;
     for wall in scene.walls.iter().filter(still) {
         for (k, found) in found.iter_mut().enumerate() {
+            if lattice.is_mapped() {
+                for (end, found) in [0, 2 * lattice.cells[k] as i16].into_iter().zip(found) {
+                    if lattice.lies_on(wall, (k, end)) {
+                        *found = Some(wall.axis);
+                    }
+                }
+                continue;
+            }
             let along = lattice.axes[k][wall.axis];
             if along.abs() < 1.0 - 1e-12 {
                 continue;

@@ -1,5 +1,6 @@
 //! The three-dimensional solver: particles at the nodes and centroids of hexahedra.
 
+pub mod cells;
 pub mod columns;
 pub mod contacts;
 pub mod dispatch;
@@ -10,6 +11,7 @@ pub mod kernel;
 pub mod lanes;
 pub mod lattice;
 pub mod ledger;
+pub mod mapping;
 pub mod mesh;
 pub mod method;
 pub mod near;

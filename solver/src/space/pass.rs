@@ -3,6 +3,7 @@
 //! Chunks of one colour touch no common particle, so all even chunks go at once, then all odd ones.
 //! Each runs through memory once, from the first slow plane to the last.
 
+use super::cells::Cells;
 use super::columns::{AllSlices, Cut, SumsSlices};
 use super::dispatch::{Instructions, Kernel};
 use super::element::{Demand, Laws, Read, Sink};
@@ -27,7 +28,12 @@ pub trait Pass<C>: Sync {
     /// Result of nothing.
     const NONE: Self::Output;
     /// What is done with a group.
-    fn group<F: Lanes>(&self, group: &mut Group, mesh: &Mesh, sink: &mut Sink<C>) -> Self::Output;
+    fn group<F: Lanes, const MAPPED: bool>(
+        &self,
+        group: &mut Group,
+        cells: &Cells<'_, MAPPED>,
+        sink: &mut Sink<C>,
+    ) -> Self::Output;
     /// Asks for what a group will read and write.
     fn fetch<F: Lanes>(&self, group: &Group, sink: &Sink<C>);
     /// Joins two results.
@@ -98,7 +104,13 @@ impl<P> Coloured<'_, P> {
         if range.len() == 1 {
             let chunk = self.chunk(range.start);
             let (_, own) = held.cut(chunk);
-            return Some(self.instructions.run(Whole { coloured: self, chunk, held: own }));
+            // A chunk has elements of one body.
+            let mapped = |group: &Group| !self.mesh.bodies[group.body as usize].mapped.is_empty();
+            return Some(if own.groups.first().is_some_and(mapped) {
+                self.instructions.run(Whole::<_, _, true> { coloured: self, chunk, held: own })
+            } else {
+                self.instructions.run(Whole::<_, _, false> { coloured: self, chunk, held: own })
+            });
         }
         let middle = range.start + range.len() / 2;
         let (low, high) = held.cut(self.chunk(middle));
@@ -127,13 +139,13 @@ impl<C: Cut> Cuttable<'_, C> {
     }
 }
 
-struct Whole<'a, 'b, P, C> {
+struct Whole<'a, 'b, P, C, const MAPPED: bool> {
     coloured: &'a Coloured<'a, P>,
     chunk: &'a Chunk,
     held: Cuttable<'b, C>,
 }
 
-impl<C, P: Pass<C>> Kernel for Whole<'_, '_, P, C> {
+impl<C, P: Pass<C>, const MAPPED: bool> Kernel for Whole<'_, '_, P, C, MAPPED> {
     type Output = P::Output;
 
     #[inline(always)]
@@ -158,7 +170,9 @@ impl<C, P: Pass<C>> Kernel for Whole<'_, '_, P, C> {
             }
             out = P::and(out, pass.particles::<F>(Some(group), &mut wave, &mut sink));
             if group.awake && group.live != 0 {
-                out = P::and(out, pass.group::<F>(group, mesh, &mut sink));
+                let body = &mesh.bodies[group.body as usize];
+                let cells = Cells::<MAPPED>::new(body, group.centre);
+                out = P::and(out, pass.group::<F, MAPPED>(group, &cells, &mut sink));
             }
             groups = rest;
         }
@@ -179,14 +193,13 @@ impl<'c> Pass<SumsSlices<'c>> for Load<'_> {
     const NONE: Demand = Demand::NONE;
 
     #[inline(always)]
-    fn group<F: Lanes>(
+    fn group<F: Lanes, const MAPPED: bool>(
         &self,
         group: &mut Group,
-        mesh: &Mesh,
+        cells: &Cells<'_, MAPPED>,
         sink: &mut Sink<SumsSlices<'c>>,
     ) -> Demand {
-        let body = &mesh.bodies[group.body as usize];
-        group.load_particles::<F>(body, &self.laws, &self.read, sink)
+        group.load_particles::<F, MAPPED>(cells, &self.laws, &self.read, sink)
     }
 
     #[inline(always)]
@@ -222,14 +235,13 @@ impl<'c> Pass<AllSlices<'c>> for Motion<'_> {
     const NONE: Moved = Moved { power: 0.0, allowed: Allowed::ANYTHING };
 
     #[inline(always)]
-    fn group<F: Lanes>(
+    fn group<F: Lanes, const MAPPED: bool>(
         &self,
         group: &mut Group,
-        mesh: &Mesh,
+        cells: &Cells<'_, MAPPED>,
         sink: &mut Sink<AllSlices<'c>>,
     ) -> Moved {
-        let body = &mesh.bodies[group.body as usize];
-        Moved { power: group.work::<F>(body, &self.laws, sink), ..Self::NONE }
+        Moved { power: group.work::<F, MAPPED>(cells, &self.laws, sink), ..Self::NONE }
     }
 
     #[inline(always)]

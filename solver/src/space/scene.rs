@@ -2,9 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::mapping::Mapping;
 use super::method::Method;
 use crate::error::SceneError;
-use crate::method::{Heating, Integrator};
+use crate::method::{Density, Heating, Integrator};
 use crate::units::Units;
 
 /// A complete problem statement.
@@ -221,6 +222,20 @@ pub struct Body {
     /// stability. The same in every run.
     #[serde(default)]
     pub noise: f64,
+    /// Where the places of its lattice lie instead, for a box that is not turned; its cells are then
+    /// unequal. Shape, cells and centre are those before.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mapping: Option<Mapping>,
+}
+
+impl Body {
+    /// Volume of the body, which its cells have but for the facets of curved faces.
+    #[must_use]
+    pub fn volume(&self) -> f64 {
+        let half = self.shape.extent().map(|edge| 0.5 * edge);
+        let ends = [-1.0, 1.0].map(|side| std::array::from_fn(|d| self.centre[d] + side * half[d]));
+        self.mapping.map_or(self.shape.volume(), |mapping| mapping.volume(ends))
+    }
 }
 
 /// A rotation about an axis.
@@ -331,7 +346,13 @@ impl Scene {
                 let wanted = "no material has that name";
                 return Err(SceneError::new(format!("{key}.material"), &body.material, wanted));
             }
-            particles = particles.saturating_add(body.validate(&key)?);
+            particles = particles.saturating_add(body.validate(self.method.balance, &key)?);
+            if body.mapping.is_some() && self.method.density != Density::Hybrid {
+                let wanted =
+                    "contacts and kernels know equal cells alone: mapped ones need `hybrid`";
+                let given = format!("{:?}", self.method.density);
+                return Err(SceneError::new("method.density", given, wanted));
+            }
         }
         if particles > MAX_PARTICLES {
             let wanted = format!("{MAX_PARTICLES} particles are the most (about 20 GB)");
@@ -445,8 +466,9 @@ impl Material {
 }
 
 impl Body {
-    /// Checks the body; an upper bound of its particles.
-    fn validate(&self, key: &str) -> Result<usize, SceneError> {
+    /// Checks the body, whose corners share volumes with this part of the opposite ones; an upper bound of
+    /// its particles.
+    fn validate(&self, balance: f64, key: &str) -> Result<usize, SceneError> {
         for (axis, &n) in self.cells.iter().enumerate() {
             if !(1..=16_000).contains(&n) {
                 let wanted = "a body has from 1 to 16000 cells across";
@@ -464,6 +486,19 @@ impl Body {
         finite(&format!("{key}.turn.degrees"), self.turn.degrees)?;
         not_negative(&format!("{key}.energy"), self.energy)?;
         not_negative(&format!("{key}.noise"), self.noise)?;
+        if let Some(mapping) = &self.mapping {
+            mapping.validate(&format!("{key}.mapping"))?;
+            if !matches!(self.shape, Shape::Box { .. }) || self.turn.degrees != 0.0 {
+                let wanted = "only a box that is not turned can be mapped";
+                return Err(SceneError::new(
+                    format!("{key}.mapping"),
+                    format!("{mapping:?}"),
+                    wanted,
+                ));
+            }
+            super::cells::check(self, balance, key)?;
+            return Ok(self.most_particles());
+        }
         let size = super::lattice::cell_size(self);
         let longest = size.iter().copied().fold(0.0, f64::max);
         let shortest = size.iter().copied().fold(f64::INFINITY, f64::min);
@@ -472,7 +507,12 @@ impl Body {
             let wanted = format!("edges may differ by a factor of {LONGEST_EDGE} at most");
             return Err(SceneError::new(format!("{key}.cells"), given, &wanted));
         }
-        Ok(self.cells.iter().map(|n| n + 1).product::<usize>() * 2)
+        Ok(self.most_particles())
+    }
+
+    /// An upper bound of its particles.
+    fn most_particles(&self) -> usize {
+        self.cells.iter().map(|n| n + 1).product::<usize>() * 2
     }
 }
 

@@ -1,7 +1,6 @@
 //! Resistance to shear: plastic flow, Eqs. (38)-(46), and what makes elements fail, Eq. (47).
 
 use super::lanes::{F8, LANES, Lanes, Mask, each};
-use super::lattice::Lattice;
 use super::method::{Method, Release, YieldNorm};
 use super::scene::{Flow, Material};
 
@@ -65,9 +64,9 @@ pub struct Solid {
 }
 
 impl Solid {
-    /// The strength of a material on a lattice.
+    /// The strength of a material in cells of this shortest edge.
     #[must_use]
-    pub fn new(material: &Material, method: &Method, lattice: &Lattice) -> Self {
+    pub fn new(material: &Material, method: &Method, edge: f64) -> Self {
         let or_never = |value: Option<f64>| value.unwrap_or(f64::INFINITY);
         let mu = material.strength.map_or(0.0, |s| s.shear_modulus);
         let bulk = super::eos::Eos::new(material).bulk();
@@ -86,7 +85,7 @@ impl Solid {
             torn: if bulk > 0.0 { TORN } else { f64::INFINITY },
             flat: if bulk > 0.0 { FLAT } else { [GAS[1]; 2] },
             sound: ((bulk + 4.0 / 3.0 * mu) / material.density).sqrt(),
-            edge: lattice.size.iter().copied().fold(f64::INFINITY, f64::min),
+            edge,
         }
     }
 

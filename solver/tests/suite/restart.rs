@@ -47,6 +47,7 @@ fn rod_on_plate(preset: Preset) -> Scene {
         spin: [0.0; 3],
         energy: 0.0,
         noise: 0.0,
+        mapping: None,
     };
     let rod = Shape::Cylinder { diameter: 0.3, length: 0.6 };
     let plate = Shape::Box { size: [3.0, 3.2, 0.2] };

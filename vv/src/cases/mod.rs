@@ -19,6 +19,7 @@ mod noh;
 mod noh_space;
 mod parts;
 mod planar_impact;
+mod saltzman;
 mod sedov;
 mod sod;
 mod spall;
@@ -29,6 +30,7 @@ mod two_stream_noh;
 mod unequal_masses;
 mod uniform_collapse;
 mod vacuum_release;
+mod verney;
 pub(crate) mod woodward_colella;
 
 use std::time::Duration;
@@ -164,7 +166,7 @@ pub trait Case: Sync {
 }
 
 /// All cases, in the order of the report.
-pub const ALL: [&dyn Case; 26] = [
+pub const ALL: [&dyn Case; 28] = [
     &noh::Noh,
     &kolsky::Kolsky,
     &uniform_collapse::CASE,
@@ -188,6 +190,8 @@ pub const ALL: [&dyn Case; 26] = [
     &beam::Beam,
     &noh_space::NohSpace,
     &sedov::Sedov,
+    &saltzman::Saltzman,
+    &verney::Verney,
     &taylor::COPPER_ROD,
     &taylor::STEEL_ROD,
     &long_rod::LongRod,

@@ -347,7 +347,7 @@ fn geometry_mass_error(scene: &Scene, solver: &Simulation) -> f64 {
     let holdings = solver.holdings();
     let errors = scene.bodies.iter().zip(&holdings).filter_map(|(body, held)| {
         let material = &scene.materials[scene.material_index(&body.material)?];
-        Some((held.mass / (material.density * body.shape.volume()) - 1.0).abs())
+        Some((held.mass / (material.density * body.volume()) - 1.0).abs())
     });
     errors.fold(0.0, f64::max)
 }

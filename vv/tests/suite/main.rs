@@ -8,6 +8,7 @@ mod cli;
 mod common;
 mod convergence;
 mod long_runs;
+mod mapped;
 mod names;
 mod planar_impact;
 mod report;

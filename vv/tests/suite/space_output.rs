@@ -48,6 +48,7 @@ fn cubes() -> Scene {
         spin: [0.0; 3],
         energy: 0.0,
         noise: 0.0,
+        mapping: None,
     };
     Scene {
         name: "cubes".into(),

@@ -1,8 +1,9 @@
 //! Bonds between the corners of a cell and its centroid: viscosity and conduction.
 
 use super::{CENTRE, Laws, Read, V3, dot, sub};
+use crate::space::cells::Cells;
 use crate::space::lanes::Lanes;
-use crate::space::mesh::{Body, Group};
+use crate::space::mesh::Group;
 
 /// Steepness of the damping of receding bonds: it is whole from where the closing neighbours, over the
 /// bond's own jump, reach half the inverse of this and of the limiter's.
@@ -53,22 +54,23 @@ impl Group {
     /// Viscosity (51)-(53) and conduction (56)-(57) as printed, between the centroid and the corners.
     /// Returns the rate of damping.
     #[inline(always)]
-    pub(super) fn pairwise<F: Lanes>(
+    pub(super) fn pairwise<F: Lanes, const MAPPED: bool>(
         &mut self,
         seen: &Seen<'_, F>,
-        (body, laws): (&Body, &Laws),
+        (cells, laws): (&Cells<'_, MAPPED>, &Laws),
         loads: &mut Loads<F>,
     ) -> F {
-        let method = &laws.method;
-        let impedance = body.rho_0 * body.bond_areas[1];
-        let half = 0.5 * method.visc_linear * impedance;
-        let conduct = 0.5 * method.heat_coeff * impedance * body.eos.c_v() * laws.dt;
-        let reach = F::splat(body.length * body.length);
+        let (body, method) = (cells.body, &laws.method);
+        let half: F = cells.bond_area_as(1, |area| 0.5 * method.visc_linear * (body.rho_0 * area));
+        let conduct: F = cells.bond_area_as(1, |area| {
+            0.5 * method.heat_coeff * (body.rho_0 * area) * body.eos.c_v() * laws.dt
+        });
+        let conducts = method.heat_coeff * laws.dt > 0.0;
         let mut most = F::zero();
         for slot in 0..8 {
             let (r, w) = seen.bond(slot);
             let square = dot(&r, &r).max(F::splat(f64::MIN_POSITIVE));
-            let near = square.lt(reach) & self.live;
+            let near = square.lt(cells.reach_squared(slot)) & self.live;
             let approach = (-dot(&r, &w)).max(F::zero()).keep(near);
             let inverse = F::splat(1.0) / square;
             let pair = if body.solid.bulk > 0.0 {
@@ -82,27 +84,30 @@ impl Group {
             self.bonds[slot] = bond.pack();
             most = most.max(nu);
             loads.pull(slot, &r, bond);
-            if conduct > 0.0 {
+            if conducts {
                 let difference = seen.theta[slot] - seen.theta[CENTRE];
                 loads.conduct(slot, (pair * difference).keep(near) * conduct);
             }
         }
-        most * body.damping()
+        most * cells.volume_as::<F>(|volume| body.damping(volume))
     }
 
     /// Viscosity on what neighbouring jumps along the diagonal do not explain, and the heat flux in
     /// shocks (decision 0013). Returns the rate of damping.
     #[inline(always)]
-    pub(super) fn limited<F: Lanes>(
+    pub(super) fn limited<F: Lanes, const MAPPED: bool>(
         &mut self,
         seen: &Seen<'_, F>,
-        (body, laws, read): (&Body, &Laws, &Read<'_>),
+        (cells, laws, read): (&Cells<'_, MAPPED>, &Laws, &Read<'_>),
         loads: &mut Loads<F>,
     ) -> F {
-        let method = &laws.method;
+        let (body, method) = (cells.body, &laws.method);
         let zero = F::zero();
-        let area = body.bond_areas[0];
-        let conduct = method.heat_coeff * area * body.eos.c_v() * laws.dt;
+        let half_area: F = cells.bond_area_as(0, |area| 0.5 * area);
+        // The heat coefficient goes with the area, and so does the mass flux that it multiplies.
+        let conduct: F = cells
+            .bond_area_as(0, |area| method.heat_coeff * area * body.eos.c_v() * laws.dt / area);
+        let conducts = method.heat_coeff * laws.dt > 0.0;
         let rho: [F; 9] = self.gather(read.rho);
         let mut most = zero;
         for slot in 0..8 {
@@ -134,7 +139,7 @@ impl Group {
             let speed = jump * inverse.sqrt();
             let closing = speed.gt(zero);
             let sound = (seen.sound[slot] + seen.sound[CENTRE]) * 0.5;
-            let mass = (rho[slot] + rho[CENTRE]) * (0.5 * area);
+            let mass = (rho[slot] + rho[CENTRE]) * half_area;
             let steep = speed * (method.visc_quad * body.slope);
             let linear = sound * method.visc_linear;
             let shock = steep + (steep * steep + linear * linear).sqrt();
@@ -144,11 +149,11 @@ impl Group {
             // A bond that pulls at nothing damps nothing: material at rest asks for no shorter step.
             most = most.max(nu.keep(closing | speed.lt(zero)));
             loads.pull(slot, &r, bond);
-            if conduct > 0.0 {
+            if conducts {
                 let difference = seen.theta[slot] - seen.theta[CENTRE];
-                loads.conduct(slot, mass * speed.max(zero) * (difference * (conduct / area)));
+                loads.conduct(slot, mass * speed.max(zero) * (difference * conduct));
             }
         }
-        most * body.damping()
+        most * cells.volume_as::<F>(|volume| body.damping(volume))
     }
 }

@@ -3,50 +3,39 @@
 
 use super::kinematics::{gradient, spread};
 use super::{V3, cross, dot};
+use crate::space::cells::Cells;
 use crate::space::hourglass::{corners, modes, resist};
 use crate::space::lanes::{Lanes, Mask};
-use crate::space::mesh::Body;
 use crate::space::method::Method;
 
 /// Least volume ratio by which the shape of a cell is undone; one below is dying.
 const LEAST: f64 = 1e-2;
 
-/// Drag of the cells of a body: `-kappa rho_o c V_o^(2/3)` times the rates of the amplitudes.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Drag {
-    /// Over the sound speed.
-    coefficient: f64,
-    /// Mass of a cell.
-    mass: f64,
+/// Coefficient of the drag on the rates of the amplitudes, `kappa rho_o V_o^(2/3) c` with the sound speed
+/// of the centroid, of live elements. A method has none, or none for a body with strength; a gas has
+/// none, where pyramids resist (decision 0017).
+#[inline(always)]
+pub(super) fn coefficient<F: Lanes, const MAPPED: bool>(
+    method: &Method,
+    cells: &Cells<'_, MAPPED>,
+    (sound, live): (impl FnOnce() -> F, Mask),
+) -> Option<F> {
+    let body = cells.body;
+    let strong = body.solid.mu > 0.0;
+    let kappa = if strong { method.visc_hourglass_strong } else { method.visc_hourglass };
+    if kappa == 0.0 || body.is_gas() {
+        return None;
+    }
+    // The area of the bonds is 3/4 of a face's.
+    let face: F = cells.bond_area_as(0, |area| 4.0 / 3.0 * kappa * body.rho_0 * area);
+    Some((sound() * face).keep(live))
 }
 
-impl Drag {
-    /// As a method has it for a body; a gas has none: there pyramids resist (decision 0017).
-    #[inline(always)]
-    pub(super) fn of(method: &Method, body: &Body) -> Option<Self> {
-        let strong = body.solid.mu > 0.0;
-        let kappa = if strong { method.visc_hourglass_strong } else { method.visc_hourglass };
-        if kappa == 0.0 || body.is_gas() {
-            return None;
-        }
-        // The area of the bonds is 3/4 of a face's.
-        let face = 4.0 / 3.0 * body.bond_areas[0];
-        let mass = body.rho_0 * body.cell_volume;
-        Some(Self { coefficient: kappa * body.rho_0 * face, mass })
-    }
-
-    /// Coefficient where the sound speed is this, of live elements.
-    #[inline(always)]
-    pub(super) fn at<F: Lanes>(&self, sound: F, live: Mask) -> F {
-        (sound * self.coefficient).keep(live)
-    }
-
-    /// Rate at which a mode is damped with this coefficient.
-    #[inline(always)]
-    pub(super) fn rate<F: Lanes>(&self, coefficient: F) -> F {
-        // Half of the mass of a cell is at its corners.
-        coefficient * (2.0 / self.mass)
-    }
+/// Rate at which a mode is damped with this coefficient.
+#[inline(always)]
+pub(super) fn rate<F: Lanes, const MAPPED: bool>(coefficient: F, cells: &Cells<'_, MAPPED>) -> F {
+    // Half of the mass of a cell is at its corners.
+    coefficient * cells.volume_as::<F>(|volume| 2.0 / (cells.body.rho_0 * volume))
 }
 
 /// The hourglass modes of cells as they are: the weights of D. P. Flanagan and T. Belytschko (1981), by
@@ -58,11 +47,15 @@ pub(super) struct Warp<F> {
 }
 
 impl<F: Lanes> Warp<F> {
-    /// At displacements.
+    /// At displacements `u`, where the slots are at `y`.
     #[inline(always)]
-    pub(super) fn new(u: &[V3<F>; 9], body: &Body) -> Self {
-        let mut along = gradient(u, body);
-        for (along, axis) in along.iter_mut().zip(&body.lattice.axes) {
+    pub(super) fn new<const MAPPED: bool>(
+        u: &[V3<F>; 9],
+        y: &[V3<F>; 9],
+        cells: &Cells<'_, MAPPED>,
+    ) -> Self {
+        let mut along = gradient(u, cells);
+        for (along, axis) in along.iter_mut().zip(&cells.body.lattice.axes) {
             for (own, axis) in along.iter_mut().zip(axis) {
                 *own += F::splat(*axis);
             }
@@ -70,7 +63,7 @@ impl<F: Lanes> Warp<F> {
         let [a, b, c] = along;
         let across = [cross(&b, &c), cross(&c, &a), cross(&a, &b)];
         let inverse = F::splat(1.0) / dot(&a, &across[0]).max(F::splat(LEAST));
-        let warp = amplitudes(u);
+        let warp = amplitudes(y);
         let mut back = [[F::zero(); 3]; 4];
         for (back, warp) in back.iter_mut().zip(&warp) {
             for (back, across) in back.iter_mut().zip(&across) {
@@ -82,8 +75,12 @@ impl<F: Lanes> Warp<F> {
 
     /// Rates of the amplitudes, but for what a linear field makes of them.
     #[inline(always)]
-    pub(super) fn rates(&self, v: &[V3<F>; 9], body: &Body) -> [V3<F>; 4] {
-        let flow = gradient(v, body);
+    pub(super) fn rates<const MAPPED: bool>(
+        &self,
+        v: &[V3<F>; 9],
+        cells: &Cells<'_, MAPPED>,
+    ) -> [V3<F>; 4] {
+        let flow = gradient(v, cells);
         let mut rates = amplitudes(v);
         for (rates, back) in rates.iter_mut().zip(&self.back) {
             for (flow, back) in flow.iter().zip(back) {
@@ -97,10 +94,10 @@ impl<F: Lanes> Warp<F> {
 
     /// Adds the forces on the corners against rates.
     #[inline(always)]
-    pub(super) fn push(
+    pub(super) fn push<const MAPPED: bool>(
         &self,
         rates: &[V3<F>; 4],
-        (body, coefficient): (&Body, F),
+        (cells, coefficient): (&Cells<'_, MAPPED>, F),
         force: &mut [V3<F>; 9],
     ) {
         let mut flow = [[F::zero(); 3]; 3];
@@ -111,7 +108,7 @@ impl<F: Lanes> Warp<F> {
                 }
             }
         }
-        spread(&flow, body, force);
+        spread(&flow, cells, force);
         for d in 0..3 {
             let mut modes = [F::zero(); 4];
             for (mode, rates) in modes.iter_mut().zip(rates) {

@@ -1,15 +1,29 @@
 //! Deformation of a cell, Eqs. (14)-(15), and the forces of its shear.
 
 use super::{V3, cross, dot};
+use crate::space::cells::Cells;
 use crate::space::lanes::{Lanes, Mask, each};
-use crate::space::mesh::Body;
 use crate::space::strength::{Sym, contract};
 
 /// Gradient of a corner field along the lattice axes, one vector an axis: one-point integration.
 #[inline(always)]
-pub(super) fn gradient<F: Lanes>(u: &[V3<F>; 9], body: &Body) -> [V3<F>; 3] {
+pub(super) fn gradient<F: Lanes, const MAPPED: bool>(
+    u: &[V3<F>; 9],
+    cells: &Cells<'_, MAPPED>,
+) -> [V3<F>; 3] {
     let mut out = [[F::zero(); 3]; 3];
-    let size = body.lattice.size;
+    if MAPPED {
+        for slot in 0..8 {
+            for (axis, out) in out.iter_mut().enumerate() {
+                let weight = cells.weight::<F>(slot, axis);
+                for (out, u) in out.iter_mut().zip(&u[slot]) {
+                    *out += weight * *u;
+                }
+            }
+        }
+        return out;
+    }
+    let size = cells.body.lattice.size;
     for d in 0..3 {
         let s = |slot: usize| u[slot][d];
         // Sums and differences along the fast axis serve all three.
@@ -24,8 +38,23 @@ pub(super) fn gradient<F: Lanes>(u: &[V3<F>; 9], body: &Body) -> [V3<F>; 3] {
 
 /// Adds to the corners the transpose of [`gradient`].
 #[inline(always)]
-pub(super) fn spread<F: Lanes>(along: &[V3<F>; 3], body: &Body, to: &mut [V3<F>; 9]) {
-    let size = body.lattice.size;
+pub(super) fn spread<F: Lanes, const MAPPED: bool>(
+    along: &[V3<F>; 3],
+    cells: &Cells<'_, MAPPED>,
+    to: &mut [V3<F>; 9],
+) {
+    if MAPPED {
+        for (slot, to) in to[..8].iter_mut().enumerate() {
+            for (axis, along) in along.iter().enumerate() {
+                let weight = cells.weight::<F>(slot, axis);
+                for (to, along) in to.iter_mut().zip(along) {
+                    *to += weight * *along;
+                }
+            }
+        }
+        return;
+    }
+    let size = cells.body.lattice.size;
     for d in 0..3 {
         let (fast, mid) = (along[0][d] * (0.25 / size[0]), along[1][d] * (0.25 / size[1]));
         let up = along[2][d] * (0.25 / size[2]);
@@ -67,10 +96,10 @@ pub(super) fn right_cauchy_green<F: Lanes>(f: &[F; 9]) -> Sym<F> {
 
 impl<F: Lanes> Kinematics<F> {
     #[inline(always)]
-    pub(super) fn new(u: &[V3<F>; 9], body: &Body) -> Self {
-        let along = gradient(u, body);
+    pub(super) fn new<const MAPPED: bool>(u: &[V3<F>; 9], cells: &Cells<'_, MAPPED>) -> Self {
+        let along = gradient(u, cells);
         let mut f = [F::zero(); 9];
-        for (row, axis) in body.lattice.axes.iter().enumerate() {
+        for (row, axis) in cells.body.lattice.axes.iter().enumerate() {
             for column in 0..3 {
                 let g = &along[column];
                 let b = g[0] * axis[0] + g[1] * axis[1] + g[2] * axis[2];
@@ -108,11 +137,10 @@ impl<F: Lanes> Kinematics<F> {
     /// First Piola-Kirchhoff stress of the shear energy (24) by the strain (14)-(16), rows turned to global
     /// axes.
     #[inline(always)]
-    pub(super) fn piola(&self, s: &Sym<F>, body: &Body) -> [F; 9] {
+    pub(super) fn piola(&self, s: &Sym<F>, axes: &[[f64; 3]; 3]) -> [F; 9] {
         let q = self.root * self.root;
         let third = contract(s, &self.c) * (1.0 / 3.0) / self.jacobian;
         let full = [s[0], s[3], s[4], s[3], s[1], s[5], s[4], s[5], s[2]];
-        let axes = &body.lattice.axes;
         let mut out = [F::zero(); 9];
         for column in 0..3 {
             let mut own = [F::zero(); 3];
@@ -131,14 +159,21 @@ impl<F: Lanes> Kinematics<F> {
 
     /// Adds the corner forces of the shear stress, `-V_o P grad N`.
     #[inline(always)]
-    pub(super) fn forces(&self, stress: &Sym<F>, body: &Body, live: Mask, force: &mut [V3<F>; 9]) {
-        let piola = self.piola(stress, body);
+    pub(super) fn forces<const MAPPED: bool>(
+        &self,
+        stress: &Sym<F>,
+        cells: &Cells<'_, MAPPED>,
+        live: Mask,
+        force: &mut [V3<F>; 9],
+    ) {
+        let piola = self.piola(stress, &cells.body.lattice.axes);
+        let volume = -cells.volume::<F>();
         let mut along = [[F::zero(); 3]; 3];
         for (axis, along) in along.iter_mut().enumerate() {
             for (d, along) in along.iter_mut().enumerate() {
-                *along = (piola[3 * d + axis] * -body.cell_volume).keep(live);
+                *along = (piola[3 * d + axis] * volume).keep(live);
             }
         }
-        spread(&along, body, force);
+        spread(&along, cells, force);
     }
 }

@@ -18,16 +18,17 @@ mod pressure;
 mod pyramid;
 mod resistance;
 
-pub use self::pyramid::pyramid_volumes;
+pub use self::pyramid::{corner_volumes, pyramid_volumes};
 
 use self::bonds::{Loads, Seen};
-use self::drag::{Drag, Warp};
+use self::drag::Warp;
 use self::kinematics::{Kinematics, gradient};
 use self::pyramid::{Extent, Pyramid, shares, tension, tension_energy};
+use super::cells::Cells;
 use super::columns::{AllSlices, SumsSlices};
 use super::hourglass::Hourglass;
 use super::lanes::{F8, Lanes, each};
-use super::mesh::{Body, Group};
+use super::mesh::Group;
 use super::method::Method;
 use crate::method::Viscosity;
 
@@ -122,54 +123,66 @@ fn cross<F: Lanes>(a: &V3<F>, b: &V3<F>) -> V3<F> {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
+/// Positions of the slots about the cell's centre at the start.
+#[inline(always)]
+fn shape<F: Lanes, const MAPPED: bool>(u: &[V3<F>; 9], cells: &Cells<'_, MAPPED>) -> [V3<F>; 9] {
+    let mut y = *u;
+    for slot in 0..8 {
+        for d in 0..3 {
+            y[slot][d] = u[slot][d] + cells.corner::<F>(slot, d);
+        }
+    }
+    y
+}
+
 impl Group {
     /// First pass: forces, conduction (62) and the heat of flow and damage (61), half of it to the centroid
     /// and a sixteenth to each corner: `phi` of (60).
     #[inline(always)]
-    pub fn load_particles<F: Lanes>(
+    pub fn load_particles<F: Lanes, const MAPPED: bool>(
         &mut self,
-        body: &Body,
+        cells: &Cells<'_, MAPPED>,
         laws: &Laws,
         read: &Read<'_>,
         sink: &mut Sink<SumsSlices<'_>>,
     ) -> Demand {
-        let live = self.live;
+        let (live, body) = (self.live, cells.body);
         let u: [V3<F>; 9] = self.gather_vector(read.displacement);
-        let y = self.shape(&u, body);
+        let y = shape(&u, cells);
         let theta: [F; 9] = self.gather(read.theta);
         let mut loads = Loads { force: [[F::zero(); 3]; 9], heat: [F::zero(); 9] };
 
-        let motion = Kinematics::new(&u, body);
+        let motion = Kinematics::new(&u, cells);
         let mut pyramids = [Pyramid::nothing(); 6];
         for k in 0..6 {
-            pyramids[k] = Pyramid::new(&y, FACES[k], body.pyramids[k]);
+            pyramids[k] = Pyramid::new(&y, FACES[k], cells.pyramid(k));
         }
-        let opening: [F; 6] = each!(k => pyramids[k].growth * body.per_pyramid[k]);
+        let opening: [F; 6] = each!(k => pyramids[k].growth * cells.per_pyramid::<F>(k));
         let corners = ((theta[0] + theta[1]) + (theta[2] + theta[3]))
             + ((theta[4] + theta[5]) + (theta[6] + theta[7]));
         let mean = theta[CENTRE] * 0.5 + corners * 0.0625;
 
-        let extent = Extent::new(&pyramids, body);
-        self.fail(body, &motion, (&opening, &extent), mean);
-        let glass = Hourglass::of(&laws.method, body);
+        let extent = Extent::new(&pyramids, cells.volume());
+        self.fail(cells, &motion, (&opening, &extent), mean);
+        let glass = Hourglass::of(&laws.method, cells);
         let held = match &glass {
             Some(glass) => glass.energy(&u),
             None => F::zero(),
         };
-        let mut freed = self.damage(body, (&opening, held), laws.dt);
+        let mut freed = self.damage(cells, (&opening, held), laws.dt);
         let intact = F::splat(1.0) - F::of(self.damage);
         let mut rate_squared = F::zero();
         if body.solid.mu > 0.0 {
-            freed += self.shear(body, &motion, (mean, intact, laws.dt));
+            freed += self.shear(cells, &motion, (mean, intact, laws.dt));
             let stress = each!(k => F::of(self.stress[k]));
-            motion.forces(&stress, body, live, &mut loads.force);
+            motion.forces(&stress, cells, live, &mut loads.force);
             // Twice the rate at which longitudinal waves cross the cell, stretched.
-            let crossing = 2.0 * body.solid.sound / body.solid.edge;
-            rate_squared = motion.stretch_squared() * (crossing * crossing);
+            let crossing: F = cells.edge_as(|edge| (2.0 * body.solid.sound / edge).powi(2));
+            rate_squared = motion.stretch_squared() * crossing;
         }
         if let Some(glass) = &glass {
             glass.push(&u, intact.keep(live), &mut loads.force);
-            rate_squared += F::splat(glass.rate_squared(body));
+            rate_squared += glass.rate_squared(cells);
         }
         let freed = freed.keep(live);
         for slot in 0..8 {
@@ -179,7 +192,7 @@ impl Group {
 
         let mut push = [F::zero(); 6];
         for k in 0..6 {
-            push[k] = -tension(opening[k], intact, body).keep(live);
+            push[k] = -tension(opening[k], intact, body.solid.bulk).keep(live);
         }
         let mut damping = F::zero();
         if laws.volumes {
@@ -189,17 +202,17 @@ impl Group {
             rate_squared += extent.frequency_squared(&sound);
             let seen = Seen { y: &y, v: &v, sound: &sound, theta: &theta };
             damping = match laws.method.viscosity {
-                Viscosity::Limited => self.limited(&seen, (body, laws, read), &mut loads),
-                Viscosity::Pairwise => self.pairwise(&seen, (body, laws), &mut loads),
+                Viscosity::Limited => self.limited(&seen, (cells, laws, read), &mut loads),
+                Viscosity::Pairwise => self.pairwise(&seen, (cells, laws), &mut loads),
             };
-            if let Some(drag) = Drag::of(&laws.method, body) {
-                let coefficient = drag.at(sound[CENTRE], live);
-                let warp = Warp::new(&u, body);
-                warp.push(&warp.rates(&v, body), (body, coefficient), &mut loads.force);
-                damping += drag.rate(coefficient);
+            let moved = (|| sound[CENTRE], live);
+            if let Some(coefficient) = drag::coefficient(&laws.method, cells, moved) {
+                let warp = Warp::new(&u, &y, cells);
+                warp.push(&warp.rates(&v, cells), (cells, coefficient), &mut loads.force);
+                damping += drag::rate(coefficient, cells);
             }
             if self.stiff.is_some() {
-                let of = (&seen, body, &laws.method);
+                let of = (&seen, cells, &laws.method);
                 rate_squared += self.stiffen(&pyramids, (extent.volume, &opening), of, &mut push);
             }
         }
@@ -219,38 +232,44 @@ impl Group {
     /// of Eq. (36) in the pressure work (59), the viscous heat of Eq. (60), half to either particle, and the
     /// power of the elements' own forces. Returns that power.
     #[inline(always)]
-    pub fn work<F: Lanes>(&self, body: &Body, laws: &Laws, sink: &mut Sink<AllSlices<'_>>) -> f64 {
+    pub fn work<F: Lanes, const MAPPED: bool>(
+        &self,
+        cells: &Cells<'_, MAPPED>,
+        laws: &Laws,
+        sink: &mut Sink<AllSlices<'_>>,
+    ) -> f64 {
+        let body = cells.body;
         let first = [sink.first_node, sink.first_centre];
         let (nodes, centres) = (&mut sink.nodes, &mut sink.centres);
         let u: [V3<F>; 9] =
             self.gather_own(nodes.0.displacement(), centres.0.displacement(), first);
-        let y = self.shape(&u, body);
+        let y = shape(&u, cells);
         let v: [V3<F>; 9] = self.gather_own(nodes.2.mean(), centres.2.mean(), first);
         let intact = F::splat(1.0) - F::of(self.damage);
         let mut power = F::zero();
         let (mut growths, mut rates) = ([F::zero(); 6], [F::zero(); 6]);
         for (k, face) in FACES.into_iter().enumerate() {
-            let pyramid = Pyramid::new(&y, face, body.pyramids[k]);
-            let opening = pyramid.growth * body.per_pyramid[k];
+            let pyramid = Pyramid::new(&y, face, cells.pyramid::<F>(k));
+            let opening = pyramid.growth * cells.per_pyramid::<F>(k);
             growths[k] = pyramid.growth.keep(self.live);
             let rate = pyramid.rate(&v, face).keep(self.live);
-            power += tension(opening, intact, body) * rate;
+            power += tension(opening, intact, body.solid.bulk) * rate;
             rates[k] = rate;
         }
-        if let Some(glass) = Hourglass::of(&laws.method, body) {
+        if let Some(glass) = Hourglass::of(&laws.method, cells) {
             power += (glass.power(&u, &v) * intact).keep(self.live);
         }
         if body.solid.mu > 0.0 {
             let stress = each!(k => F::of(self.stress[k]));
-            let piola = Kinematics::new(&u, body).piola(&stress, body);
-            let gradient = gradient(&v, body);
+            let piola = Kinematics::new(&u, cells).piola(&stress, &body.lattice.axes);
+            let gradient = gradient(&v, cells);
             let mut shear = F::zero();
             for row in 0..3 {
                 for (axis, gradient) in gradient.iter().enumerate() {
                     shear += piola[3 * row + axis] * gradient[row];
                 }
             }
-            power += (shear * body.cell_volume).keep(self.live);
+            power += (shear * cells.volume::<F>()).keep(self.live);
         }
         if laws.volumes {
             // The particles have the same shares in the volumes as in the pressure on them.
@@ -268,13 +287,14 @@ impl Group {
                 heat[slot] = half;
                 heat[CENTRE] += half;
             }
-            if let Some(drag) = Drag::of(&laws.method, body) {
+            let sound = || F::load_some(centres.1.sound, self.centre as usize - first[1]);
+            let moved = (sound, self.live);
+            if let Some(coefficient) = drag::coefficient(&laws.method, cells, moved) {
                 let made: [V3<F>; 9] =
                     self.gather_own(nodes.0.velocity(), centres.0.velocity(), first);
-                let warp = Warp::new(&u, body);
-                let (made, mean) = (warp.rates(&made, body), warp.rates(&v, body));
-                let sound = F::load_some(centres.1.sound, self.centre as usize - first[1]);
-                let warmth = drag::power(&made, &mean) * drag.at(sound, self.live) * laws.dt;
+                let warp = Warp::new(&u, &y, cells);
+                let (made, mean) = (warp.rates(&made, cells), warp.rates(&v, cells));
+                let warmth = drag::power(&made, &mean) * coefficient * laws.dt;
                 heat[CENTRE] += warmth * 0.5;
                 for heat in &mut heat[..CENTRE] {
                     *heat += warmth * 0.0625;
@@ -298,9 +318,9 @@ impl Group {
     /// Energy stored by lane: in shear (24), from the stress of the last step, in tension (25) and in
     /// hourglass modes, at the positions before the last drift, which was of length `dt`.
     #[must_use]
-    pub fn stored(
+    pub fn stored<const MAPPED: bool>(
         &self,
-        body: &Body,
+        cells: &Cells<'_, MAPPED>,
         (displacement, velocity): ([&[f64]; 3], [&[f64]; 3]),
         (method, dt): (&Method, f64),
     ) -> [F8; 3] {
@@ -309,12 +329,12 @@ impl Group {
         for (u, v) in u.iter_mut().zip(&v) {
             *u = sub(u, &v.map(|v| v * dt));
         }
-        let y = self.shape(&u, body);
-        let opening =
-            each!(k => Pyramid::new(&y, FACES[k], body.pyramids[k]).growth * body.per_pyramid[k]);
+        let y = shape(&u, cells);
+        let opening = each!(k => Pyramid::new(&y, FACES[k], cells.pyramid::<F8>(k)).growth * cells.per_pyramid::<F8>(k));
         let intact = F8::splat(1.0) - self.damage;
-        let (shear, tension) = (self.shear_energy::<F8>(body), tension_energy(body, &opening));
-        let glass = Hourglass::of(method, body).map_or(F8::ZERO, |glass| glass.energy(&u));
+        let (shear, tension) =
+            (self.shear_energy::<F8, MAPPED>(cells), tension_energy(cells, &opening));
+        let glass = Hourglass::of(method, cells).map_or(F8::ZERO, |glass| glass.energy(&u));
         [shear, tension, glass].map(|energy| (energy * intact).keep(self.live))
     }
 }

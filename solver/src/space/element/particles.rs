@@ -3,7 +3,7 @@
 use super::{CENTRE, Read, Sink, V3};
 use crate::space::columns::SumsSlices;
 use crate::space::lanes::{F8, LANES, Lanes, Mask, each};
-use crate::space::mesh::{Body, Group};
+use crate::space::mesh::Group;
 
 impl Group {
     /// Asks for what tells where the group's particles are.
@@ -137,17 +137,5 @@ impl Group {
             self.scatter(&own, node, sink.first_node);
             self.scatter_centre(own[CENTRE], centre, sink.first_centre);
         }
-    }
-
-    /// Positions of the slots about the cell's centre at the start.
-    #[inline(always)]
-    pub(super) fn shape<F: Lanes>(&self, u: &[V3<F>; 9], body: &Body) -> [V3<F>; 9] {
-        let mut y = *u;
-        for (slot, corner) in body.corners.iter().enumerate() {
-            for d in 0..3 {
-                y[slot][d] = u[slot][d] + corner[d];
-            }
-        }
-        y
     }
 }

@@ -1,8 +1,8 @@
 //! Pyramids from the centroid of a cell to its faces: their volumes, and tension.
 
 use super::{CENTRE, FACES, V3, cross, dot, sub};
+use crate::space::cells::Cells;
 use crate::space::lanes::{F8, Lanes};
-use crate::space::mesh::Body;
 
 /// A pyramid from the centroid to a face.
 #[derive(Debug, Clone, Copy)]
@@ -26,7 +26,7 @@ impl<F: Lanes> Pyramid<F> {
     }
 
     #[inline(always)]
-    pub(super) fn new(y: &[V3<F>; 9], [a, b, c, d]: [usize; 4], reference: f64) -> Self {
+    pub(super) fn new(y: &[V3<F>; 9], [a, b, c, d]: [usize; 4], reference: F) -> Self {
         let mut w = [F::zero(); 3];
         for (k, w) in w.iter_mut().enumerate() {
             *w = ((y[a][k] + y[b][k]) + (y[c][k] + y[d][k])) * 0.25 - y[CENTRE][k];
@@ -111,9 +111,8 @@ pub(super) struct Extent<F> {
 
 impl<F: Lanes> Extent<F> {
     #[inline(always)]
-    pub(super) fn new(pyramids: &[Pyramid<F>; 6], body: &Body) -> Self {
-        let mut extent =
-            Self { volume: F::splat(body.cell_volume), largest: F::zero(), faces: F::zero() };
+    pub(super) fn new(pyramids: &[Pyramid<F>; 6], volume: F) -> Self {
+        let mut extent = Self { volume, largest: F::zero(), faces: F::zero() };
         for pyramid in pyramids {
             let square = dot(&pyramid.area, &pyramid.area);
             extent.largest = extent.largest.max(square);
@@ -143,22 +142,32 @@ pub fn pyramid_volumes(corners: &[[f64; 3]; 8]) -> [f64; 6] {
     for (slot, corner) in corners.iter().enumerate() {
         y[slot] = corner.map(F8::splat);
     }
-    FACES.map(|face| Pyramid::new(&y, face, 0.0).growth.0[0])
+    FACES.map(|face| Pyramid::new(&y, face, F8::ZERO).growth.0[0])
+}
+
+/// Volumes that the corners have of a cell with these pyramids.
+#[must_use]
+pub fn corner_volumes(pyramids: &[f64; 6], balance: f64) -> [f64; 8] {
+    let share = shares(&pyramids.map(F8::splat), balance);
+    std::array::from_fn(|slot| share[slot].0[0])
 }
 
 /// Tension of a pyramid, Eq. (25), with the bracket (26).
 #[inline(always)]
-pub(super) fn tension<F: Lanes>(opening: F, intact: F, body: &Body) -> F {
-    intact * body.solid.bulk * opening.max(F::zero())
+pub(super) fn tension<F: Lanes>(opening: F, intact: F, bulk: f64) -> F {
+    intact * bulk * opening.max(F::zero())
 }
 
 /// Energy of the pyramids in tension, damage apart.
 #[inline(always)]
-pub(super) fn tension_energy<F: Lanes>(body: &Body, opening: &[F; 6]) -> F {
+pub(super) fn tension_energy<F: Lanes, const MAPPED: bool>(
+    cells: &Cells<'_, MAPPED>,
+    opening: &[F; 6],
+) -> F {
     let mut energy = F::zero();
     for (k, o) in opening.iter().enumerate() {
         let open = o.max(F::zero());
-        energy += open * open * (0.5 * body.solid.bulk * body.pyramids[k]);
+        energy += open * open * (cells.pyramid::<F>(k) * (0.5 * cells.body.solid.bulk));
     }
     energy
 }

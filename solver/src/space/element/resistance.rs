@@ -2,8 +2,9 @@
 
 use super::kinematics::Kinematics;
 use super::pyramid::{Extent, tension_energy};
+use crate::space::cells::Cells;
 use crate::space::lanes::{Lanes, each};
-use crate::space::mesh::{Body, Group};
+use crate::space::mesh::Group;
 use crate::space::strength::{Flowing, Load, Sym, contract};
 
 /// Expansion at which a failed element ceases to count as a volume.
@@ -12,14 +13,14 @@ const OPEN: f64 = 1.2;
 impl Group {
     /// Marks lanes that fail, and those that cease to be volumes after this step.
     #[inline(always)]
-    pub(super) fn fail<F: Lanes>(
+    pub(super) fn fail<F: Lanes, const MAPPED: bool>(
         &mut self,
-        body: &Body,
+        cells: &Cells<'_, MAPPED>,
         motion: &Kinematics<F>,
         (opening, extent): (&[F; 6], &Extent<F>),
         theta: F,
     ) {
-        let solid = &body.solid;
+        let solid = &cells.body.solid;
         let mut smallest = opening[0];
         let mut widest = opening[0];
         for o in &opening[1..] {
@@ -27,7 +28,7 @@ impl Group {
             widest = widest.max(*o);
         }
         let crushed = smallest.lt(F::splat(solid.crushed - 1.0))
-            | extent.volume.lt(F::splat(solid.least * body.cell_volume))
+            | extent.volume.lt(cells.volume_as(|volume| solid.least * volume))
             | motion.jacobian.lt(F::splat(solid.compression));
         let tension = (F::splat(1.0) - F::of(self.damage)) * solid.bulk * widest;
         let pulled = tension.gt(F::splat(solid.spall));
@@ -36,8 +37,10 @@ impl Group {
         let stretched = motion.stretch_squared().gt(F::splat(solid.torn * solid.torn));
         let open = motion.jacobian.gt(F::splat(OPEN)) & self.failed;
         // Faces come doubled.
-        let [sound, failed] = solid.flat.map(|share| (0.5 * share * solid.edge).powi(2));
-        let least = F::select(self.failed, F::splat(failed), F::splat(sound));
+        let [sound, failed] = solid.flat;
+        let sound: F = cells.edge_as(|edge| (0.5 * sound * edge).powi(2));
+        let failed: F = cells.edge_as(|edge| (0.5 * failed * edge).powi(2));
+        let least = F::select(self.failed, failed, sound);
         let flat = (extent.volume * extent.volume).lt(extent.largest * least);
         self.dying = (crushed | stretched | open | flat) & self.live;
         self.failed |= self.dying;
@@ -47,9 +50,9 @@ impl Group {
     /// of the damage. A dying element loses all of its strength at once, so that no stored energy is left
     /// in it.
     #[inline(always)]
-    pub(super) fn damage<F: Lanes>(
+    pub(super) fn damage<F: Lanes, const MAPPED: bool>(
         &mut self,
-        body: &Body,
+        cells: &Cells<'_, MAPPED>,
         (opening, held): (&[F; 6], F),
         dt: f64,
     ) -> F {
@@ -58,9 +61,9 @@ impl Group {
         }
         let one = F::splat(1.0);
         let before = F::of(self.damage);
-        let step = F::select(self.dying, one, F::splat(body.solid.damage_step(dt)));
+        let step = F::select(self.dying, one, F::splat(cells.body.solid.damage_step(dt)));
         let after = F::select(self.failed & self.live, (before + step).min(one), before);
-        let stored = self.shear_energy::<F>(body) + tension_energy(body, opening) + held;
+        let stored = self.shear_energy::<F, MAPPED>(cells) + tension_energy(cells, opening) + held;
         let released = stored * (after - before);
         let left = (one - after) / (one - before).max(F::splat(1e-300));
         for stress in &mut self.stress {
@@ -72,21 +75,24 @@ impl Group {
 
     /// Shear energy per damage, `Gamma^d` of Eq. (31), from the stress of the last step.
     #[inline(always)]
-    pub(super) fn shear_energy<F: Lanes>(&self, body: &Body) -> F {
+    pub(super) fn shear_energy<F: Lanes, const MAPPED: bool>(
+        &self,
+        cells: &Cells<'_, MAPPED>,
+    ) -> F {
         let intact = F::splat(1.0) - F::of(self.damage);
-        let stiffness = intact * intact * (4.0 * body.solid.mu);
+        let stiffness = intact * intact * (4.0 * cells.body.solid.mu);
         let some = stiffness.gt(F::zero());
         let stress: Sym<F> = each!(k => F::of(self.stress[k]));
         let energy = contract(&stress, &stress) / F::select(some, stiffness, F::splat(1.0));
-        (energy * body.cell_volume).keep(some)
+        (energy * cells.volume::<F>()).keep(some)
     }
 
     /// Shear stress (30) and plastic flow (48); the heat of the flow, the last term of Eq. (61), by the mean
     /// stress of the step.
     #[inline(always)]
-    pub(super) fn shear<F: Lanes>(
+    pub(super) fn shear<F: Lanes, const MAPPED: bool>(
         &mut self,
-        body: &Body,
+        cells: &Cells<'_, MAPPED>,
         motion: &Kinematics<F>,
         (theta, intact, dt): (F, F, f64),
     ) -> F {
@@ -94,11 +100,12 @@ impl Group {
         let before: Sym<F> = each!(k => F::of(self.plastic[k]));
         let old: Sym<F> = each!(k => F::of(self.stress[k]));
         let mut plastic = before;
-        let modulus = intact * (2.0 * body.solid.mu);
+        let solid = &cells.body.solid;
+        let modulus = intact * (2.0 * solid.mu);
         let load = Load { modulus, intact, theta, live: self.live, dt };
         let mut own =
             Flowing { strain: &mut self.strain, flow: &mut self.flow, rate: &mut self.rate };
-        let stress = body.solid.flow(&total, &mut plastic, &mut own, &load);
+        let stress = solid.flow(&total, &mut plastic, &mut own, &load);
         let step: Sym<F> = each!(k => plastic[k] - before[k]);
         let mut flowed = 0;
         for k in 0..6 {
@@ -113,6 +120,6 @@ impl Group {
             *own = plastic.pack();
         }
         let mean: Sym<F> = each!(k => (stress[k] + old[k]) * 0.5);
-        contract(&mean, &step) * body.cell_volume
+        contract(&mean, &step) * cells.volume::<F>()
     }
 }

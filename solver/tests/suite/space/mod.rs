@@ -6,6 +6,7 @@ mod determinism;
 mod failure;
 mod gas;
 mod lattice_density;
+mod mapped;
 mod memory;
 mod objectivity;
 mod plain;

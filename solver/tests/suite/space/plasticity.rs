@@ -1,12 +1,12 @@
 //! The return map lands on the yield surface, in all three readings of the printed norm.
 
 use whipple_solver::space::lanes::F8;
-use whipple_solver::space::lattice::{Lattice, rotation};
+use whipple_solver::space::lattice::rotation;
 use whipple_solver::space::method::{Method, YieldNorm};
 use whipple_solver::space::scene::Flow;
 use whipple_solver::space::strength::{Flowing, Load, Solid};
 
-use super::scenes::{block, copper, default, strong};
+use super::scenes::{copper, default, strong};
 
 const MU: f64 = 0.46;
 const THETA: f64 = 700.0;
@@ -16,8 +16,7 @@ type M = [[f64; 3]; 3];
 
 fn solid(flow: Flow, yield_norm: YieldNorm) -> Solid {
     let method = Method { yield_norm, ..default() };
-    let lattice = Lattice::new(&block("copper", [3, 3, 3], 0.1));
-    Solid::new(&strong(copper(), MU, Some(flow)), &method, &lattice)
+    Solid::new(&strong(copper(), MU, Some(flow)), &method, 0.1)
 }
 
 fn matrix(f: impl Fn(usize, usize) -> f64) -> M {

@@ -73,6 +73,7 @@ pub fn body(material: &str, shape: Shape, cells: [usize; 3]) -> Body {
         spin: [0.0; 3],
         energy: 0.0,
         noise: 0.0,
+        mapping: None,
     }
 }
 

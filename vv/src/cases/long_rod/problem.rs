@@ -134,6 +134,7 @@ fn bodies(n: usize, plate: [f64; 2]) -> Vec<Body> {
         spin: [0.0; 3],
         energy: 0.0,
         noise: 0.0,
+        mapping: None,
     };
     let plate = Body {
         name: "plate".into(),
@@ -146,6 +147,7 @@ fn bodies(n: usize, plate: [f64; 2]) -> Vec<Body> {
         spin: [0.0; 3],
         energy: 0.0,
         noise: 0.0,
+        mapping: None,
     };
     vec![rod, plate]
 }

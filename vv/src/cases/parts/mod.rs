@@ -42,6 +42,7 @@ pub(super) fn resting(material: &str, shape: Shape, cells: [usize; 3], centre: [
         spin: [0.0; 3],
         energy: 0.0,
         noise: 0.0,
+        mapping: None,
     }
 }
 
