@@ -167,16 +167,32 @@ fn folders_that_cannot_be_are_refused() {
 /// `list CASE` shows a case whole, `--keys` what `--set` takes.
 #[test]
 fn list_shows_a_case_and_the_keys() {
-    for (name, args) in [
-        ("case_along_a_line", &["list", "sod"][..]),
-        ("case_in_space", &["list", "spall"]),
-        ("keys", &["list", "--keys"]),
-        ("keys_of_a_case", &["list", "spall", "--keys"]),
-    ] {
-        let said = said(folder().path(), args);
+    let list = |args: &[&str]| {
+        let said = said(folder().path(), &[&["list"], args].concat());
         assert_eq!((said.code, said.err.as_str()), (Some(0), ""));
-        insta::assert_snapshot!(name, said.out);
-    }
+        said.out
+    };
+    insta::assert_snapshot!("case", list(&["sod"]));
+    // The line of a key, and that below it.
+    let key = |text: &str, name: &str| {
+        let mut lines =
+            text.lines().skip_while(|line| line.split_whitespace().next() != Some(name));
+        let [values, meaning] =
+            [lines.next(), lines.next()].map(|line| line.expect("a line").trim());
+        (values.split_whitespace().map(str::to_owned).collect::<Vec<_>>(), meaning.to_owned())
+    };
+    let keys = list(&["--keys"]);
+    let (values, meaning) = key(&keys, "visc_linear");
+    assert_eq!(values, ["visc_linear", "1", "0.25", "–"]);
+    assert_eq!(meaning, "Linear viscosity coefficient, `c_o` of Eq. (53).");
+    let (values, meaning) = key(&keys, "heating");
+    assert_eq!(values, ["heating", "printed", "pair", "–"]);
+    assert_eq!(meaning, "Split of the viscous heat. One of: printed, pair.");
+    assert!(keys.contains("\nAlong a line:\n") && keys.contains("\nIn three dimensions:\n"));
+    let keys = list(&["spall", "--keys"]);
+    let (values, _) = key(&keys, "materials.0.failure.spall");
+    assert_eq!(values, ["materials.0.failure.spall", "0.0088", "0.0088", "Mbar"]);
+    assert!(key(&keys, "release").1.ends_with("One of: steps, crossings."));
 }
 
 /// `run` shows what is wanted beside its numbers, and judges only what is claimed.
