@@ -76,6 +76,7 @@ impl SpaceSummary {
     }
 }
 
+/// One JSON object with everything that a script needs.
 pub(super) fn json(record: &RunRecord) -> Result<String, Failure> {
     let (preset, density) = match record.key.scheme {
         Scheme::Godunov => (None, None),
