@@ -213,17 +213,18 @@ impl Docs {
 
     /// What is said of a value, and what may be chosen for it.
     fn meaning(&self, path: &[&str]) -> (String, Vec<String>) {
-        let (mut owner, mut doc) = ("Scene".to_owned(), "");
+        let (mut owner, mut doc) = ("Scene".to_owned(), String::new());
         for part in path.iter().filter(|part| part.parse::<usize>().is_err()) {
             let Some(entry) = self.entry(&owner, part) else { return Default::default() };
-            doc = &entry.doc;
+            // A variant says how, and what it is of says what.
+            doc = if entry.variant { format!("{doc} {}", entry.doc) } else { entry.doc.clone() };
             owner = match entry.kind.as_str() {
                 "" => format!("{owner}::{part}"),
                 kind => kind.to_owned(),
             };
         }
         let choices = self.0.iter().filter(|entry| entry.owner == owner && entry.variant);
-        (doc.to_owned(), choices.map(|entry| entry.name.clone()).collect())
+        (doc, choices.map(|entry| entry.name.clone()).collect())
     }
 }
 
@@ -308,6 +309,8 @@ mod tests {
         let release = key("long-rod", "release");
         assert_eq!(release.values, ["{ steps = 20 }", "{ crossings = 5 }"]);
         assert_eq!(release.choices, ["steps", "crossings"]);
+        let speed = key("kolsky", "bodies.0.velocity.uniform");
+        assert_eq!(speed.meaning, "Initial velocity. The same value everywhere.");
         for (case, name, unit) in [
             ("long-rod", "materials.0.density", "g/cm³"),
             ("long-rod", "materials.0.eos.mie_gruneisen.c_v", "Mbar cm³/g/K"),
