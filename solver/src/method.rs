@@ -170,6 +170,28 @@ impl Preset {
     }
 }
 
+impl Heating {
+    /// Name, as `--set` takes it.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Printed => "printed",
+            Self::Pair => "pair",
+        }
+    }
+}
+
+impl Integrator {
+    /// Name, as `--set` takes it.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::SinglePass => "single_pass",
+            Self::Compatible => "compatible",
+        }
+    }
+}
+
 impl Density {
     /// All schemes.
     pub const ALL: [Self; 3] = [Self::Nonholonomic, Self::Kernel, Self::Hybrid];

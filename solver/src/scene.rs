@@ -361,7 +361,7 @@ impl Scene {
         }
         let n = self.particles();
         if n > MAX_PARTICLES {
-            let wanted = format!("{MAX_PARTICLES} particles are the most (about 10 GB)");
+            let wanted = format!("{MAX_PARTICLES} particles are the most");
             return Err(SceneError::new("bodies", format!("{n} particles"), &wanted));
         }
         Ok(())

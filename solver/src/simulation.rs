@@ -140,11 +140,14 @@ impl<P: Physics<1>> Simulation<P> {
     }
 
     /// Takes one step, at most to the time `until`: densities (36), momenta (63), (74), positions
-    /// (76) with the velocities (37), and energies (58).
+    /// (76) with the velocities (37), and energies (58). At that time or later there is no step.
     ///
     /// # Errors
     /// The first numerical failure. The state is then the one before the step.
     pub fn step(&mut self, until: f64) -> Result<(), StepError> {
+        if until <= self.time {
+            return Ok(());
+        }
         let opening = self.sweep::<Opening>(At::Start)?;
         self.ends.load(&self.chain, &mut self.tally);
         let dt = self.elect(&opening.votes, until)?;

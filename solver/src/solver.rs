@@ -14,7 +14,7 @@ use crate::timestep::{Decided, Vote};
 
 /// A simulation of any composition. Dispatch is dynamic here, per call, and nowhere inside.
 pub trait Solver: Send {
-    /// Takes one step, at most to the time `until`.
+    /// Takes one step, at most to the time `until`; none at that time or later.
     ///
     /// # Errors
     /// A numerical failure; the state is the one before the step.

@@ -58,8 +58,8 @@ impl Weight {
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
-            Self::Must => "must",
-            Self::Aim => "aim",
+            Self::Must => "required",
+            Self::Aim => "goal",
             Self::Shown => "shown",
         }
     }
@@ -119,6 +119,15 @@ impl Wanted {
             Self::WithinZero(bound) => value.abs() <= bound,
             Self::Near(target, share) => (value - target).abs() <= share * target.abs(),
             Self::Around(target, band) => (value - target).abs() <= band,
+        }
+    }
+
+    /// The value itself, where there is one and not a bound alone.
+    #[must_use]
+    pub fn target(self) -> Option<f64> {
+        match self {
+            Self::Near(target, _) | Self::Around(target, _) => Some(target),
+            Self::AtMost(_) | Self::AtLeast(_) | Self::WithinZero(_) => None,
         }
     }
 
@@ -187,6 +196,20 @@ pub struct Verdict {
     pub stale: bool,
     /// Why there is no number.
     pub note: String,
+}
+
+impl Verdict {
+    /// The judgement in words.
+    #[must_use]
+    pub fn word(&self) -> &'static str {
+        match (self.status, self.claim.weight) {
+            (Status::Pass, _) => "pass",
+            (Status::Missing, _) => "no record",
+            (Status::Fail, Weight::Must) => "fail",
+            (Status::Fail, Weight::Aim) => "goal missed",
+            (Status::Fail, Weight::Shown) => "fails, as known",
+        }
+    }
 }
 
 /// Judges claims by records.

@@ -8,16 +8,21 @@ use clap::{Parser, Subcommand, ValueEnum};
 use whipple_solver::method::{Density, Preset};
 
 use crate::cases::Level;
-use times::SimulatedTime;
+use numbers::{SIZES, THREADS, whole};
+use times::{SimulatedTime, wall_time};
 
 mod bench;
 mod list;
+mod numbers;
 mod progress;
 mod reports;
+mod results;
+mod resume;
 mod run;
+mod sizes;
 mod times;
 
-/// Exit code when a claim failed.
+/// Exit code when a required claim failed.
 const CLAIM_FAILED: u8 = 1;
 /// Exit code of wrong use or input.
 const WRONG_USE: u8 = 2;
@@ -38,16 +43,17 @@ const EXAMPLES: &str = "\
 Examples:
   whipple vv                          run every case, judge, write the report to reports/
   whipple vv noh --level quick        one case, small sizes
+  whipple list noh                    what is measured and claimed of a case
   whipple run noh --preset paper --n 400 --json
   whipple run sod --set heating=printed --out out/sod
   whipple run long-rod --vtu 5us --max-wall 30min --out out/rod
 
-Exit codes: 0 fine, 1 a claim failed, 2 wrong use or input, 3 numerical failure, 130 interrupted.";
+Exit codes: 0 fine, 1 a required claim failed, 2 wrong use or input, 3 numerical failure, 130 interrupted.";
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// List the cases, their variants and sizes
-    List,
+    /// List the cases with sizes and variants, one case with its claims, or the keys of --set
+    List(ListArgs),
     /// Run one case and print what was measured
     Run(RunArgs),
     /// Run cases, judge their claims and write the report
@@ -66,6 +72,16 @@ enum Command {
 }
 
 #[derive(Debug, clap::Args)]
+struct ListArgs {
+    /// Case to be shown whole: problem, sizes, what is measured, claims with what is wanted
+    case: Option<String>,
+    /// What `run --set` can change: key, default of each preset, unit, meaning; with a case, also the
+    /// values of its scene
+    #[arg(long)]
+    keys: bool,
+}
+
+#[derive(Debug, clap::Args)]
 struct RunArgs {
     /// Case, as `whipple list` names it
     case: String,
@@ -75,24 +91,31 @@ struct RunArgs {
     /// Density scheme, if not the preset's own
     #[arg(long, value_enum)]
     density: Option<DensityArg>,
-    /// Number of particles; in three dimensions, of cells across the smallest edge
-    #[arg(long)]
+    /// Size: number of particles; in three dimensions, of cells across what the case names. `whipple
+    /// list CASE` has those that the levels run
+    #[arg(long, allow_hyphen_values = true, value_parser = whole(SIZES))]
     n: Option<usize>,
     /// Variant of the case
-    #[arg(long, default_value = "")]
+    #[arg(long, default_value = "", allow_hyphen_values = true)]
     variant: String,
     /// Stop at this time instead of the case's own: a number in the units of the scene, or with a
     /// unit (20us, 0.5ms)
-    #[arg(long, value_name = "TIME", conflicts_with = "godunov")]
+    #[arg(long, value_name = "TIME", conflicts_with = "godunov", allow_hyphen_values = true)]
     stop: Option<SimulatedTime>,
-    /// Change one value of the scene, such as heating=pair (repeatable)
-    #[arg(long = "set", value_name = "KEY=VALUE")]
+    /// Change one value of the scene, such as heating=pair (repeatable); `whipple list --keys` has all
+    /// keys
+    #[arg(long = "set", value_name = "KEY=VALUE", allow_hyphen_values = true)]
     sets: Vec<String>,
     /// Run the Eulerian Godunov code on the case instead
     #[arg(long, conflicts_with_all = ["preset", "density", "sets"])]
     godunov: bool,
     /// Threads
-    #[arg(long, default_value_t = 1)]
+    #[arg(
+        long,
+        default_value_t = 1,
+        allow_hyphen_values = true,
+        value_parser = whole(THREADS)
+    )]
     threads: usize,
     /// Folder for the record, the scene and the fields as CSV; in three dimensions also for the
     /// ledger, pictures, frames and checkpoints
@@ -100,7 +123,13 @@ struct RunArgs {
     out: Option<PathBuf>,
     /// In three dimensions: write the state as VTU files every so often, such as 5us; `run.pvd`
     /// lists them
-    #[arg(long, value_name = "EVERY", requires = "out", conflicts_with = "godunov")]
+    #[arg(
+        long,
+        value_name = "EVERY",
+        requires = "out",
+        conflicts_with = "godunov",
+        allow_hyphen_values = true
+    )]
     vtu: Option<SimulatedTime>,
     /// In three dimensions: go on from this checkpoint of the same case and options; the bits are
     /// those of a run that was never stopped
@@ -113,6 +142,7 @@ struct RunArgs {
         value_name = "TIME",
         requires = "out",
         conflicts_with = "godunov",
+        allow_hyphen_values = true,
         value_parser = wall_time
     )]
     max_wall: Option<Duration>,
@@ -123,18 +153,13 @@ struct RunArgs {
         value_name = "EVERY",
         requires = "out",
         conflicts_with = "godunov",
+        allow_hyphen_values = true,
         value_parser = wall_time
     )]
     checkpoint: Option<Duration>,
     /// Print one JSON object on standard output
     #[arg(long)]
     json: bool,
-}
-
-/// A time on the clock.
-fn wall_time(text: &str) -> Result<Duration, String> {
-    humantime::parse_duration(text)
-        .map_err(|_| "wanted a time such as 30s, 2min or 1h 30min".into())
 }
 
 #[derive(Debug, clap::Args)]
@@ -164,22 +189,32 @@ struct BenchArgs {
     /// What to measure; all of it when nothing is named
     what: Vec<Bench>,
     /// Density: particles along the line
-    #[arg(long, default_value_t = 10_000)]
+    #[arg(
+        long,
+        default_value_t = 10_000,
+        allow_hyphen_values = true,
+        value_parser = whole(2..=10_000_000)
+    )]
     n: usize,
     /// Density: A/B/B/A rounds
-    #[arg(long, default_value_t = 10)]
+    #[arg(long, default_value_t = 10, allow_hyphen_values = true, value_parser = whole(1..=1000))]
     rounds: usize,
     /// Rod: cells across
-    #[arg(long, default_value_t = 5)]
+    #[arg(long, default_value_t = 5, allow_hyphen_values = true, value_parser = whole(1..=1000))]
     cells: usize,
     /// Rod: steps of each run, from its start
-    #[arg(long, default_value_t = 400)]
-    steps: u64,
+    #[arg(
+        long,
+        default_value_t = 400,
+        allow_hyphen_values = true,
+        value_parser = whole(1..=10_000_000)
+    )]
+    steps: usize,
     /// Rod: runs to their end instead
     #[arg(long, conflicts_with = "steps")]
     whole: bool,
     /// Rod: threads that are compared with one
-    #[arg(long, default_value_t = 2)]
+    #[arg(long, default_value_t = 2, allow_hyphen_values = true, value_parser = whole(THREADS))]
     threads: usize,
     /// Rod: folder for the tables as CSV and the figure as SVG
     #[arg(long, value_name = "DIR")]
@@ -306,7 +341,7 @@ pub fn main() -> u8 {
         }
     };
     let ended = match cli.command {
-        Command::List => list::list(),
+        Command::List(args) => list::list(&args),
         Command::Run(args) => run::run(&args),
         Command::Vv(args) => reports::vv(&args),
         Command::Report(args) => reports::report(&args),

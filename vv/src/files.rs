@@ -68,6 +68,9 @@ pub enum Cause {
     /// The folder does not exist.
     #[error("its folder does not exist")]
     FolderMissing,
+    /// The file system lets nobody make folders there, as that of `/proc`.
+    #[error("no folder can be made there")]
+    NoFolders,
     /// Anything else, in the words of the system.
     #[error("{0}")]
     Other(String),
@@ -106,7 +109,12 @@ pub fn write_atomic(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
 /// # Errors
 /// [`FileError`] if the folder cannot be made or a trial file cannot be written there.
 pub fn ensure_writable_dir(path: &Path) -> Result<(), FileError> {
-    fs::create_dir_all(path).map_err(failed(path, Operation::CreateFolder))?;
+    fs::create_dir_all(path).map_err(|error| {
+        let missing = error.kind() == io::ErrorKind::NotFound;
+        let failure = failed(path, Operation::CreateFolder)(error);
+        // All folders above are made on the way, so none of them is missing.
+        if missing { FileError { cause: Cause::NoFolders, ..failure } } else { failure }
+    })?;
     let mut trial = temporary_in(path).map_err(failed(path, Operation::CreateFile))?;
     trial
         .write_all(b"trial")

@@ -10,6 +10,8 @@ pub mod document;
 pub mod exact;
 pub mod files;
 pub mod godunov;
+pub mod keys;
+pub mod memory;
 pub mod norms;
 pub mod overrides;
 pub mod pace;

@@ -8,9 +8,17 @@ use crate::suggest::did_you_mean;
 /// Why a scene cannot be changed as asked.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum OverrideError {
-    /// No `=`.
-    #[error("`--set {0}` has no value: write KEY=VALUE, such as heating=pair or method.cfl=0.1")]
-    NoValue(String),
+    /// No `=`, or nothing on a side of it.
+    #[error(
+        "`--set {text}` has no {lacks}: write KEY=VALUE, such as heating=pair or method.cfl=0.1; \
+         `whipple list --keys` has the keys"
+    )]
+    Incomplete {
+        /// The override as given.
+        text: String,
+        /// What is missing.
+        lacks: &'static str,
+    },
     /// No such key.
     #[error("`--set {key}={value}`: there is no `{part}` in {place}{hint}")]
     NoKey {
@@ -52,10 +60,13 @@ pub fn apply(scene: AnyScene, overrides: &[String]) -> Result<AnyScene, Override
 }
 
 fn apply_one(scene: &AnyScene, text: &str) -> Result<AnyScene, OverrideError> {
-    let Some((key, value)) = text.split_once('=') else {
-        return Err(OverrideError::NoValue(text.to_owned()));
-    };
+    let (key, value) = text.split_once('=').unwrap_or((text, ""));
     let (key, value) = (key.trim(), value.trim());
+    for (part, lacks) in [(key, "key"), (value, "value")] {
+        if part.is_empty() {
+            return Err(OverrideError::Incomplete { text: text.to_owned(), lacks });
+        }
+    }
     let bad =
         |reason: String| OverrideError::BadValue { key: key.into(), value: value.into(), reason };
 
@@ -159,9 +170,9 @@ mod tests {
     use whipple_solver::method::{Heating, Preset};
     use whipple_solver::scene::Scene;
 
-    fn changed(set: &str) -> Result<Scene, String> {
+    fn changed(set: &str) -> Result<Scene, OverrideError> {
         let scene = crate::cases::find("noh").expect("a case").scene(Preset::Default, "", 10);
-        let changed = apply(scene, &[set.to_owned()]).map_err(|e| e.to_string())?;
+        let changed = apply(scene, &[set.to_owned()])?;
         Ok(changed.line().expect("a scene along a line").clone())
     }
 
@@ -191,7 +202,12 @@ mod tests {
     #[test]
     fn messages_say_what_is_wanted() {
         let message = |set: &str| changed(set).expect_err("must be refused");
-        insta::assert_snapshot!(message("heating"), @"`--set heating` has no value: write KEY=VALUE, such as heating=pair or method.cfl=0.1");
+        insta::assert_snapshot!(message("heating"), @"`--set heating` has no value: write KEY=VALUE, such as heating=pair or method.cfl=0.1; `whipple list --keys` has the keys");
+        let lacks = |set: &str| match message(set) {
+            OverrideError::Incomplete { lacks, .. } => lacks,
+            other => panic!("{other}"),
+        };
+        assert_eq!(["heating=", "=3", " = ", ""].map(lacks), ["value", "key", "key", "key"]);
         insta::assert_snapshot!(message("heatng=pair"));
         insta::assert_snapshot!(message("heating=sideways"));
         insta::assert_snapshot!(message("cfl=nan"), @"`--set cfl=nan`: a finite number is needed");

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use whipple_solver::method::Preset;
 
 use crate::cases::{Case, Level};
-use crate::claims::{Verdict, judge};
+use crate::claims::{Claim, Verdict, judge};
 use crate::files::{FileError, ensure_writable_dir, write_atomic};
 use crate::pictures::{PICTURES, write_photos};
 use crate::record::{RecordError, Records, RunKey, RunRecord, Scheme};
@@ -40,6 +40,19 @@ pub enum SuiteError {
         /// Why.
         reason: String,
     },
+}
+
+/// Whether a level has all runs that a claim of a case needs.
+#[must_use]
+pub fn covers(case: &dyn Case, level: Level, claim: &Claim) -> bool {
+    let runs = case.runs(level);
+    claim.quantity.runs().iter().all(|key| runs.contains(key))
+}
+
+/// The lowest level with all runs that a claim of a case needs, if there is one.
+#[must_use]
+pub fn level_of(case: &dyn Case, claim: &Claim) -> Option<Level> {
+    Level::ALL.into_iter().find(|&level| covers(case, level, claim))
 }
 
 /// Folder of the records of a report.

@@ -355,7 +355,7 @@ impl Scene {
             }
         }
         if particles > MAX_PARTICLES {
-            let wanted = format!("{MAX_PARTICLES} particles are the most (about 20 GB)");
+            let wanted = format!("{MAX_PARTICLES} particles are the most");
             return Err(SceneError::new("bodies", format!("{particles} particles"), &wanted));
         }
         Ok(())
@@ -365,16 +365,12 @@ impl Scene {
 impl Method {
     fn validate(&self) -> Result<(), SceneError> {
         if self.integrator != Integrator::Compatible {
-            let wanted = "in three dimensions there is the compatible integrator alone";
-            return Err(SceneError::new(
-                "method.integrator",
-                format!("{:?}", self.integrator),
-                wanted,
-            ));
+            let wanted = "in three dimensions there is `compatible` alone";
+            return Err(SceneError::new("method.integrator", self.integrator.name(), wanted));
         }
         if self.heating != Heating::Pair {
-            let wanted = "in three dimensions viscous heat goes half and half to the pair";
-            return Err(SceneError::new("method.heating", format!("{:?}", self.heating), wanted));
+            let wanted = "in three dimensions there is `pair` alone: half to each particle";
+            return Err(SceneError::new("method.heating", self.heating.name(), wanted));
         }
         positive("method.cfl", self.cfl)?;
         for (key, value) in [
@@ -503,9 +499,17 @@ impl Body {
         let longest = size.iter().copied().fold(0.0, f64::max);
         let shortest = size.iter().copied().fold(f64::INFINITY, f64::min);
         if longest > LONGEST_EDGE * shortest {
-            let given = format!("{size:?}, the edges of a cell,");
-            let wanted = format!("edges may differ by a factor of {LONGEST_EDGE} at most");
-            return Err(SceneError::new(format!("{key}.cells"), given, &wanted));
+            let [a, b, c] = self.cells;
+            let wanted = format!(
+                "that makes the longest edge of a cell {:.3} times its shortest, and {LONGEST_EDGE} is the \
+                 most",
+                longest / shortest
+            );
+            return Err(SceneError::new(
+                format!("{key}.cells"),
+                format!("[{a}, {b}, {c}]"),
+                &wanted,
+            ));
         }
         Ok(self.most_particles())
     }

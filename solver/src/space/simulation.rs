@@ -195,7 +195,8 @@ impl Simulation {
         }
     }
 
-    /// Takes one step, at most to the time `until`: compatible leapfrog (decision 0012).
+    /// Takes one step, at most to the time `until`: compatible leapfrog (decision 0012). At that time
+    /// or later there is no step.
     ///
     /// # Errors
     /// A numerical failure.
@@ -212,6 +213,9 @@ impl Simulation {
         until: f64,
         enter: &mut impl FnMut(Phase),
     ) -> Result<(), StepError> {
+        if until <= self.time {
+            return Ok(());
+        }
         self.load(enter);
         enter(Phase::Control);
         let dt = self.elect(until)?;

@@ -53,3 +53,22 @@ fn one_call_or_many_change_no_bit() {
         assert_eq!(whole.decided(), stepped.decided());
     }
 }
+
+/// At a time that is reached there is no step: not of length zero, and not back.
+#[test]
+fn a_time_that_is_reached_is_no_step() {
+    for preset in Preset::ALL {
+        let mut solver = start(&wall_shock(preset.method(), 60));
+        for reached in [0.0, 0.05] {
+            solver.advance_to(reached).expect("the wall shock runs");
+            let before = (bits(&solver.snapshot()), *solver.ledger(), solver.counters());
+            for until in [reached, 0.5 * reached, -1.0, f64::NEG_INFINITY] {
+                solver.step(until).expect("nothing can fail");
+                assert_eq!(solver.time().to_bits(), reached.to_bits());
+            }
+            assert_eq!(before, (bits(&solver.snapshot()), *solver.ledger(), solver.counters()));
+        }
+        solver.step(1.0).expect("it goes on");
+        assert!(solver.time() > 0.05 && solver.snapshot().x.iter().all(|x| x.is_finite()));
+    }
+}

@@ -49,12 +49,27 @@ use crate::scene::AnyScene;
 /// How much is run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, clap::ValueEnum)]
 pub enum Level {
-    /// The smallest sizes: a minute.
+    /// The smallest sizes: 1 to 2 minutes for all cases.
     Quick,
-    /// Every size that a claim needs.
+    /// Most sizes that claims need: 5 to 6 minutes.
     Standard,
-    /// Everything, the largest sizes and references included.
+    /// Every size that a claim needs, the long rod at 9 cells and its variants too: about 35 minutes.
     Full,
+}
+
+impl Level {
+    /// All levels, the shortest first.
+    pub const ALL: [Self; 3] = [Self::Quick, Self::Standard, Self::Full];
+
+    /// Name, as on the command line.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Quick => "quick",
+            Self::Standard => "standard",
+            Self::Full => "full",
+        }
+    }
 }
 
 /// What the Godunov code made of a case.
@@ -91,7 +106,7 @@ pub trait Case: Sync {
         &[""]
     }
 
-    /// Number of particles when none is given.
+    /// Size when none is given: of particles along a line, of cells across what the case names in space.
     fn default_size(&self) -> usize;
 
     /// The problem with the choices of a preset.

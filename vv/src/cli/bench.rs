@@ -2,10 +2,11 @@
 
 use whipple_solver::method::{Density, Integrator, Preset};
 
-use super::run::MAX_THREADS;
+use super::sizes::expect;
 use super::{Bench, BenchArgs, Failure, NUMERICAL_FAILURE, print, say};
 use crate::cost::{Comparison, Contender, CostError, EQUAL_LIST, compare};
 use crate::files::{ensure_writable_dir, write_atomic};
+use crate::memory::Keeps;
 use crate::pace::{self, PaceError, Stretch, measure};
 use crate::plots;
 use crate::record::{RunKey, Scheme};
@@ -33,13 +34,6 @@ impl From<PaceError> for Failure {
 /// Measures what was asked for and prints it.
 pub(super) fn bench(args: &BenchArgs) -> Result<u8, Failure> {
     let wants = |what: Bench| args.what.is_empty() || args.what.contains(&what);
-    if args.threads == 0 || args.threads > MAX_THREADS {
-        let message = format!("--threads {} must be from 1 to {MAX_THREADS}", args.threads);
-        return Err(Failure::usage(message));
-    }
-    if args.steps == 0 {
-        return Err(Failure::usage("--steps 0 measures nothing"));
-    }
     if let Some(out) = &args.out {
         ensure_writable_dir(out)?;
     }
@@ -55,7 +49,7 @@ pub(super) fn bench(args: &BenchArgs) -> Result<u8, Failure> {
 /// Speed, phases and memory of the long rod: `default`, the paper's method, and the kernel that it
 /// removes.
 fn rod(args: &BenchArgs) -> Result<(), Failure> {
-    let stretch = if args.whole { Stretch::Whole } else { Stretch::Steps(args.steps) };
+    let stretch = if args.whole { Stretch::Whole } else { Stretch::Steps(args.steps as u64) };
     let rod = super::run::find("long-rod")?;
     let scene = |scheme: Scheme, variant: &str| {
         let key = RunKey::new(rod.id(), scheme, args.cells).variant(variant);
@@ -63,6 +57,9 @@ fn rod(args: &BenchArgs) -> Result<(), Failure> {
         scene.ok_or_else(|| Failure::usage("the long rod is in space"))
     };
     let kernel = Scheme::Particles { preset: Preset::Paper, density: Density::Kernel };
+    // The kernel takes the most memory.
+    let largest = scene(kernel, "as-printed")?.into();
+    expect(rod, ("--cells", args.cells), &largest, Keeps::default())?;
     let run = |(scheme, variant): (Scheme, &str), threads: usize| {
         let (label, cells) = (scheme.label(), args.cells);
         say(&format!("long rod, {cells} cells across, {label}, threads: {threads} ..."));

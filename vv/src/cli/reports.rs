@@ -6,16 +6,18 @@ use std::time::Duration;
 
 use super::progress::{Outlook, Progress};
 use super::run::find_all;
+use super::sizes::expect;
 use super::{CLAIM_FAILED, Failure, ReferenceArgs, ReportArgs, VvArgs, print, say};
-use crate::cases::woodward_colella;
+use crate::cases::{ALL, Case, Level, woodward_colella};
 use crate::claims::{Status, Verdict, Weight};
 use crate::document;
 use crate::files::{ensure_writable_dir, write_atomic};
+use crate::memory::Keeps;
 use crate::pictures::read_pictures;
 use crate::plots;
 use crate::record::{Outcome, Records};
 use crate::report::{self, Drawing};
-use crate::suite::{Forecast, forecast, records_folder, run_suite, verdicts};
+use crate::suite::{Forecast, covers, forecast, records_folder, run_suite, scene_of, verdicts};
 
 /// Runs, judges, reports.
 pub(super) fn vv(args: &VvArgs) -> Result<u8, Failure> {
@@ -23,7 +25,13 @@ pub(super) fn vv(args: &VvArgs) -> Result<u8, Failure> {
     ensure_writable_dir(&args.out)?;
     // Records that cannot be read tell nothing, and may be replaced by this very run.
     let records = Records::read(&records_folder(&args.out)).unwrap_or_default();
-    say(&expected(&forecast(&cases, args.level, &records)));
+    for case in &cases {
+        for key in case.runs(args.level) {
+            let Some(scene) = scene_of(*case, &key) else { continue };
+            expect(*case, ("--n", key.n), &scene, Keeps::default())?;
+        }
+    }
+    say(&expected(&cases, args.level, &forecast(&cases, args.level, &records)));
     let progress = Progress::new(Outlook::default());
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
     let pool = pool.map_err(|e| Failure::usage(format!("cannot start a thread: {e}")))?;
@@ -46,12 +54,17 @@ pub(super) fn vv(args: &VvArgs) -> Result<u8, Failure> {
     conclude(verdicts.iter().filter(ran), &args.out)
 }
 
-/// What to expect, in words.
-fn expected(forecast: &Forecast) -> String {
+/// What is about to run, how long it takes, and what is left to other levels.
+fn expected(cases: &[&'static dyn Case], level: Level, forecast: &Forecast) -> String {
     let Forecast { runs, measured, scaled, unknown } = *forecast;
     let time =
         |seconds: f64| humantime::format_duration(Duration::from_secs(seconds.ceil() as u64));
-    let mut text = format!("{runs} runs");
+    let all = cases.len() == ALL.len();
+    let what = match cases {
+        _ if all => format!("all {} cases", ALL.len()),
+        cases => cases.iter().map(|case| case.id()).collect::<Vec<&str>>().join(", "),
+    };
+    let mut text = format!("level {}: {runs} runs of {what}", level.name());
     if unknown < runs {
         text += &format!(
             ", about {} of CPU time by the records of the folder",
@@ -62,9 +75,32 @@ fn expected(forecast: &Forecast) -> String {
         text += &format!(" ({} of it scaled from other sizes or schemes)", time(scaled));
     }
     if unknown > 0 {
-        text += &format!("; no record tells the time of {unknown}");
+        text += &match usual(level) {
+            minutes if all && unknown == runs => format!(", about {minutes} where it was measured"),
+            _ => format!("; no record tells the time of {unknown}"),
+        };
     }
-    text
+    let left = |case: &&'static dyn Case| {
+        case.claims().iter().filter(|claim| !covers(*case, level, claim)).count()
+    };
+    match cases.iter().map(left).sum::<usize>() {
+        0 => text,
+        left => {
+            text + &format!(
+                "\n{left} claims need runs of another level, and rest on records of the folder, if it \
+                 has them; `--level full` runs all"
+            )
+        }
+    }
+}
+
+/// What a level took with all cases on two cores, one of them busy.
+fn usual(level: Level) -> &'static str {
+    match level {
+        Level::Quick => "1 to 2 minutes",
+        Level::Standard => "5 to 6 minutes",
+        Level::Full => "35 minutes",
+    }
 }
 
 /// Redraws the report, or compares it with what a redraw would give.
@@ -117,6 +153,13 @@ type Made = (report::Report, BTreeMap<String, Drawing>, Vec<Verdict>);
 /// The report of a folder of records, in memory.
 fn made(folder: &Path) -> Result<Made, Failure> {
     let there = records_folder(folder);
+    if !there.is_dir() {
+        return Err(Failure::usage(format!(
+            "no report in {}: it has no folder `records`; `whipple vv --out {0}` makes one, --out names \
+             another",
+            folder.display()
+        )));
+    }
     let records = Records::read(&there)?;
     // Pictures are not drawn again: they must be those of the records.
     let mut drawings = read_pictures(&there, &records).map_err(Failure::usage)?;
@@ -135,7 +178,7 @@ fn draw(folder: &Path) -> Result<Vec<Verdict>, Failure> {
     Ok(verdicts)
 }
 
-/// Prints the failed claims and the counts; fails if a must claim did.
+/// Prints the failed claims and the counts; fails if a required claim did.
 fn conclude<'a>(verdicts: impl Iterator<Item = &'a Verdict>, out: &Path) -> Result<u8, Failure> {
     let (mut passed, mut failed, mut missing) = (0, 0, 0);
     let mut text = String::new();
@@ -152,7 +195,8 @@ fn conclude<'a>(verdicts: impl Iterator<Item = &'a Verdict>, out: &Path) -> Resu
             }
         }
     }
-    text += &format!("must claims: {passed} passed, {failed} failed, {missing} without a record\n");
+    text +=
+        &format!("required claims: {passed} passed, {failed} failed, {missing} without a record\n");
     text += &format!("report: {}\n", out.join("index.html").display());
     print(&text)?;
     Ok(if failed > 0 { CLAIM_FAILED } else { 0 })
@@ -164,4 +208,45 @@ pub(super) fn reference(args: &ReferenceArgs) -> Result<u8, Failure> {
     write_atomic(&args.out, text.as_bytes())?;
     print(&format!("wrote {}\n", args.out.display()))?;
     Ok(0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::ValueEnum;
+
+    /// What is said before a run: how much, how long, and what another level has.
+    #[test]
+    fn runs_are_announced() {
+        let (unknown, rod) = (Forecast { runs: 7, unknown: 7, ..Forecast::default() }, "long-rod");
+        let said = expected(&ALL, Level::Full, &unknown);
+        assert_eq!(
+            said,
+            "level full: 7 runs of all 26 cases, about 35 minutes where it was measured"
+                .replace("26", &ALL.len().to_string())
+        );
+        let rod = [crate::cases::find(rod).expect("the case")];
+        let said = expected(&rod, Level::Quick, &unknown);
+        let (first, second) = said.split_once('\n').expect("two lines");
+        assert_eq!(first, "level quick: 7 runs of long-rod; no record tells the time of 7");
+        assert!(second.contains(" claims need runs of another level"), "{second}");
+        let known = Forecast { runs: 7, measured: 50.0, scaled: 70.0, unknown: 1 };
+        let said = expected(&rod, Level::Full, &known);
+        assert_eq!(
+            said,
+            "level full: 7 runs of long-rod, about 2m of CPU time by the records of the folder (1m 10s of it \
+             scaled from other sizes or schemes); no record tells the time of 1"
+        );
+    }
+
+    /// The help says the same times.
+    #[test]
+    fn levels_have_one_time() {
+        for level in Level::ALL {
+            let value = level.to_possible_value().expect("a level");
+            let help = value.get_help().map(ToString::to_string).unwrap_or_default();
+            assert!(help.contains(usual(level)), "{help}");
+            assert_eq!(value.get_name(), level.name());
+        }
+    }
 }

@@ -1,7 +1,9 @@
-//! Times on the command line: simulated ones in the units of the scene or with one of their own.
+//! Times on the command line: on the clock, and simulated ones in the units of the scene or with one of
+//! their own.
 
 use std::fmt;
 use std::str::FromStr;
+use std::time::Duration;
 
 use whipple_solver::units::{Dimension, Units};
 
@@ -14,6 +16,14 @@ const WANTED: &str = "wanted a positive number in the units of the scene, such a
 /// Units of time by their names, as powers of ten of a second.
 const UNITS: [(&str, i32); 6] =
     [("ns", -9), ("us", -6), ("µs", -6), ("μs", -6), ("ms", -3), ("s", 0)];
+
+/// A time on the clock.
+pub(super) fn wall_time(text: &str) -> Result<Duration, String> {
+    let time = humantime::parse_duration(text).ok().filter(|time| !time.is_zero());
+    time.ok_or_else(|| {
+        "wanted a time above zero with its unit, such as 30s, 2min or 1h30min".into()
+    })
+}
 
 /// A simulated time as it is given.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -89,6 +99,15 @@ mod tests {
         assert_eq!(written, ["5us", "0.5ms", "20"]);
         assert_eq!(time("20us", Units::InLbfS), Ok(20e-6));
         assert_eq!(time("0.5", Units::None), Ok(0.5));
+    }
+
+    #[test]
+    fn times_on_the_clock_have_a_unit_and_are_not_zero() {
+        assert_eq!(wall_time("1h30min"), Ok(Duration::from_secs(5400)));
+        assert_eq!(wall_time("1us"), Ok(Duration::from_micros(1)));
+        for text in ["", "0s", "0", "30", "-3", "-3s", "soon", "5 parsecs"] {
+            assert!(wall_time(text).is_err_and(|said| said.starts_with("wanted")), "{text}");
+        }
     }
 
     #[test]

@@ -117,13 +117,7 @@ fn claim_row(verdict: &Verdict) -> Vec<Cell> {
         (Judged::Fail, Weight::Must) => Some(Status::Fail),
         (Judged::Fail, _) => None,
     };
-    let word = match (verdict.status, claim.weight) {
-        (Judged::Pass, _) => "pass",
-        (Judged::Missing, _) => "no record",
-        (Judged::Fail, Weight::Must) => "fail",
-        (Judged::Fail, Weight::Aim) => "goal missed",
-        (Judged::Fail, Weight::Shown) => "fails, as known",
-    };
+    let word = verdict.word();
     let word = if verdict.stale { format!("{word}, stale") } else { word.into() };
     let mut source = claim.source.to_owned();
     if claim.in_sample {

@@ -50,12 +50,16 @@ pub struct Halted {
     pub measured: Measured,
 }
 
-/// A run as a checkpoint, to be written.
+/// Section of the command that makes the run, for messages; files of earlier programs have none.
+const COMMAND: &str = "run.command";
+
+/// A run as a checkpoint, to be written: its scene and the command that makes it, its state, and what
+/// its case has found.
 ///
 /// # Errors
 /// [`CheckpointError::Header`] if its time is not finite.
 pub fn pack(
-    scene: &Scene,
+    (scene, command): (&Scene, &str),
     simulation: &Simulation,
     measured: &Measured,
 ) -> Result<Writer, CheckpointError> {
@@ -74,6 +78,7 @@ pub fn pack(
             Values::U8(values) => writer.section(name, values)?,
         }
     }
+    writer.bytes(COMMAND, command.as_bytes())?;
     measured.write(&mut writer)?;
     Ok(writer)
 }
@@ -84,11 +89,11 @@ pub fn pack(
 /// As [`save_next`]; the earlier checkpoints are then still there.
 pub fn save(
     folder: &Path,
-    scene: &Scene,
+    of: (&Scene, &str),
     simulation: &Simulation,
     measured: &Measured,
 ) -> Result<PathBuf, CheckpointError> {
-    save_next(folder, &pack(scene, simulation, measured)?)
+    save_next(folder, &pack(of, simulation, measured)?)
 }
 
 /// The run of a scene as it was when the checkpoint `path` was written.
@@ -97,6 +102,18 @@ pub fn save(
 /// [`ResumeError`], with the section that is damaged or does not fit.
 pub fn load(path: &Path, scene: &Scene) -> Result<Halted, ResumeError> {
     unpack(Reader::open(path, &scene_hash(scene))?, scene)
+}
+
+/// The command that makes the run of a checkpoint, if it says so.
+///
+/// # Errors
+/// [`CheckpointError`] if the section is there and is not what is written.
+pub fn command_in(reader: &mut Reader) -> Result<Option<String>, CheckpointError> {
+    if !reader.sections().iter().any(|section| section.name == COMMAND) {
+        return Ok(None);
+    }
+    let text = String::from_utf8_lossy(&reader.bytes(COMMAND)?).into_owned();
+    Ok(Some(text).filter(|text| !text.is_empty()))
 }
 
 /// The run of a scene from an opened checkpoint of it.
@@ -116,6 +133,7 @@ pub fn unpack(mut reader: Reader, scene: &Scene) -> Result<Halted, ResumeError> 
             Values::U8(values) => *values = reader.array(name, &[values.len()])?,
         }
     }
+    command_in(&mut reader)?;
     let measured = Measured::read(&mut reader)?;
     reader.finish()?;
     simulation.restore(&sections)?;

@@ -47,6 +47,8 @@ pub enum OutputError {
 pub struct Recorder {
     folder: PathBuf,
     scene: Scene,
+    /// The command that makes the run.
+    command: String,
     ledger: History,
     saved: Option<Instant>,
     film: Option<Film>,
@@ -86,12 +88,19 @@ impl Recorder {
         Ok(Self {
             folder: folder.to_owned(),
             scene: scene.clone(),
+            command: String::new(),
             ledger,
             saved: None,
             film,
             keeping: None,
             good: None,
         })
+    }
+
+    /// Says in checkpoints which command makes the run.
+    #[must_use]
+    pub fn of(self, command: &str) -> Self {
+        Self { command: command.to_owned(), ..self }
     }
 
     /// Wants a checkpoint this often on the clock, beside the one at the end.
@@ -151,7 +160,7 @@ impl Recorder {
         simulation: &Simulation,
         measured: &Measured,
     ) -> Result<PathBuf, OutputError> {
-        Ok(checkpoint::save(&self.folder, &self.scene, simulation, measured)?)
+        Ok(checkpoint::save(&self.folder, (&self.scene, &self.command), simulation, measured)?)
     }
 
     /// Writes the last state that was seen as a checkpoint, after a failure.

@@ -88,6 +88,22 @@ fn wrong_input_is_refused() {
         refusal(&["run", "noh", "--n", "-5"]),
         refusal(&["run", "noh", "--n", "1e12"]),
         refusal(&["run", "noh", "--n", "1000000000000"]),
+        refusal(&["run", "noh", "--n", "abc"]),
+        refusal(&["run", "noh", "--n"]),
+        refusal(&["run", "long-rod", "--n", "1"]),
+        refusal(&["run", "sod", "--n", "3"]),
+        refusal(&["run", "noh-space", "--variant", "spherical", "--n", "4000"]),
+        refusal(&["run", "noh", "--stop", "-1"]),
+        refusal(&["run", "long-rod", "--stop", "-1us"]),
+        refusal(&["run", "long-rod", "--out", "new", "--vtu", "-5us"]),
+        refusal(&["run", "long-rod", "--out", "new", "--max-wall", "0s"]),
+        refusal(&["run", "long-rod", "--out", "new", "--max-wall", "-3"]),
+        refusal(&["run", "long-rod", "--out", "new", "--checkpoint", "0s"]),
+        refusal(&["run", "noh", "--set", "=3"]),
+        refusal(&["run", "noh", "--set", "cfl="]),
+        refusal(&["run", "noh", "--set", "cfl=-1"]),
+        refusal(&["run", "long-rod", "--set", "integrator=single_pass"]),
+        refusal(&["run", "long-rod", "--set", "heating=printed"]),
         refusal(&["run", "noh", "--set", "materials.0.density=-1"]),
         refusal(&["run", "noh", "--set", "cfl=nan"]),
         refusal(&["run", "noh", "--set", "cfl"]),
@@ -97,15 +113,112 @@ fn wrong_input_is_refused() {
         refusal(&["run", "noh", "--preset", "papr"]),
         refusal(&["run", "noh", "--density", "sph"]),
         refusal(&["run", "noh", "--variant", "sideways"]),
+        refusal(&["run", "noh", "--variant", "suport-1.5"]),
+        refusal(&["run", "long-rod", "--variant", "widde"]),
+        refusal(&["run", "sedov", "--variant", "-1"]),
         refusal(&["run", "noh", "--threads", "0"]),
+        refusal(&["run", "noh", "--threads", "-1"]),
         refusal(&["run", "noh", "--threads", "99999"]),
         refusal(&["run", "heat-chain", "--godunov"]),
         refusal(&["run", "noh", "--godunov", "--preset", "paper"]),
         refusal(&["vv", "noh", "--level", "slow"]),
         refusal(&["report", "--out", "nowhere"]),
+        refusal(&["report", "--check", "--out", "nowhere"]),
+        refusal(&["list", "nho"]),
+        refusal(&["bench", "--rounds", "0"]),
+        refusal(&["bench", "rod", "--cells", "-5"]),
+        refusal(&["bench", "rod", "--steps", "0"]),
         refusal(&["fly"]),
     ];
     insta::assert_snapshot!(refused.join("\n"));
+}
+
+/// A scene that needs more memory than there is, refused before anything is allocated.
+#[test]
+fn scenes_beyond_the_memory_are_refused() {
+    // 31 million particles with a kernel and a folder: 230 GB.
+    if whipple_vv::memory::available().is_none_or(|room| room > 200_000_000_000) {
+        return;
+    }
+    let case = ["run", "noh-space", "--variant", "spherical", "--n", "250", "--density", "kernel"];
+    let refused = refusal(&[&case[..], &["--out", "new"]].concat());
+    let (what, room) = refused.trim_end().split_once(", and ").expect("what there is");
+    assert!(
+        what.ends_with(
+            "error: `noh-space` with --n 250 has about 31 438 251 particles and needs about 229.5 GB of \
+             memory"
+        ),
+        "{refused}"
+    );
+    assert!(room.ends_with(" are available; take a smaller --n"), "{refused}");
+}
+
+/// No folder can be made in `/proc`, which is said before anything runs.
+#[cfg(target_os = "linux")]
+#[test]
+fn folders_that_cannot_be_are_refused() {
+    for args in [&["run", "noh"][..], &["vv", "noh"], &["run", "long-rod"]] {
+        let refused = refusal(&[args, &["--out", "/proc/x"]].concat());
+        let said = "error: cannot make the folder /proc/x: no folder can be made there\n";
+        assert!(refused.ends_with(said), "{refused}");
+    }
+}
+
+/// `list CASE` shows a case whole, `--keys` what `--set` takes.
+#[test]
+fn list_shows_a_case_and_the_keys() {
+    let list = |args: &[&str]| {
+        let said = said(folder().path(), &[&["list"], args].concat());
+        assert_eq!((said.code, said.err.as_str()), (Some(0), ""));
+        said.out
+    };
+    insta::assert_snapshot!("case", list(&["sod"]));
+    // The line of a key, and that below it.
+    let key = |text: &str, name: &str| {
+        let mut lines =
+            text.lines().skip_while(|line| line.split_whitespace().next() != Some(name));
+        let [values, meaning] =
+            [lines.next(), lines.next()].map(|line| line.expect("a line").trim());
+        (values.split_whitespace().map(str::to_owned).collect::<Vec<_>>(), meaning.to_owned())
+    };
+    let keys = list(&["--keys"]);
+    let (values, meaning) = key(&keys, "visc_linear");
+    assert_eq!(values, ["visc_linear", "1", "0.25", "–"]);
+    assert_eq!(meaning, "Linear viscosity coefficient, `c_o` of Eq. (53).");
+    let (values, meaning) = key(&keys, "heating");
+    assert_eq!(values, ["heating", "printed", "pair", "–"]);
+    assert_eq!(meaning, "Split of the viscous heat. One of: printed, pair.");
+    assert!(keys.contains("\nAlong a line:\n") && keys.contains("\nIn three dimensions:\n"));
+    let keys = list(&["spall", "--keys"]);
+    let (values, _) = key(&keys, "materials.0.failure.spall");
+    assert_eq!(values, ["materials.0.failure.spall", "0.0088", "0.0088", "Mbar"]);
+    assert!(key(&keys, "release").1.ends_with("One of: steps, crossings."));
+}
+
+/// `run` shows what is wanted beside its numbers, and judges only what is claimed.
+#[test]
+fn run_shows_what_is_wanted() {
+    let row = |args: &[&str], name: &str| {
+        let said = said(folder().path(), &[&["run"], args].concat());
+        assert_eq!(said.code, Some(0), "{}", said.err);
+        let row = said.out.lines().find(|line| line.trim_start().starts_with(name));
+        row.unwrap_or_else(|| panic!("{name}: {}", said.out)).to_owned()
+    };
+    let kolsky = ["kolsky", "--n", "101"];
+    let plateau = row(&kolsky, "plateau");
+    assert!(plateau.contains("exact 337.87 ± ") && plateau.ends_with(": pass"), "{plateau}");
+    let drift = row(&kolsky, "energy drift");
+    assert!(drift.ends_with("wanted ≤ 1.000×10⁻¹²: pass"), "{drift}");
+    let changed = [&kolsky[..], &["--set", "cfl=0.1"]].concat();
+    let drift = row(&changed, "energy drift");
+    assert!(drift.ends_with("wanted ≤ 1.000×10⁻¹²"), "{drift}");
+    let note = row(&changed, "What is wanted");
+    assert!(note.contains("is of the case as it stands, and not judged here"), "{note}");
+    let alone = row(&["noh", "--n", "37"], "No claim");
+    assert_eq!(alone, "No claim is made of this run alone; `whipple list noh` has all claims.");
+    // The value is that of any size.
+    let plateau = row(&["kolsky", "--n", "61"], "plateau");
+    assert!(plateau.ends_with(" exact 337.87"), "{plateau}");
 }
 
 /// A file where the folder of the results should be, found before anything runs.
@@ -243,9 +356,4 @@ fn bench_measures_the_rod() {
     for name in ["pace-phases.csv", "pace-machine.csv", "pace.svg"] {
         assert!(!read(name).expect("a file").is_empty(), "{name}");
     }
-    let refused = crate::common::said(folder.path(), &["bench", "rod", "--steps", "0"]);
-    assert_eq!(
-        (refused.code, refused.err.as_str()),
-        (Some(2), "error: --steps 0 measures nothing\n")
-    );
 }

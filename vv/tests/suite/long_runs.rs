@@ -364,6 +364,23 @@ fn other_looks_are_refused() {
     }
 }
 
+/// A case that looks at parts of its whole time cannot go on to another end, which is said as such.
+#[test]
+fn another_end_has_other_looks() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let run = |args: &[&str]| {
+        said(folder.path(), &[&["run", "taylor-copper", "--out", "out"], args].concat())
+    };
+    assert_well(&run(&["--stop", "0.5"]));
+    let refused = run(&["--stop", "1", "--resume", "out/checkpoint-000001.whp"]);
+    let err = errors(&refused);
+    assert_eq!(refused.code, Some(2), "{err}");
+    let begin =
+        "error: --resume out/checkpoint-000001.whp: its run measured at other times than this one";
+    assert!(err.starts_with(begin), "{err}");
+    assert!(err.ends_with("give the --stop of the run that wrote it"), "{err}");
+}
+
 /// What is said to checkpoints and options that a run cannot use; nothing is written then.
 #[test]
 fn runs_that_cannot_go_on_are_refused() {
@@ -373,7 +390,9 @@ fn runs_that_cannot_go_on_are_refused() {
     let file = fs::read(at.join("out/checkpoint-000001.whp")).expect("a checkpoint");
     let mut altered = file.clone();
     altered[file.len() - 1] ^= 4;
-    fs::write(at.join("altered.whp"), altered).expect("a file");
+    for folder in [".", "out"] {
+        fs::write(at.join(folder).join("altered.whp"), &altered).expect("a file");
+    }
     fs::write(at.join("cut.whp"), &file[..file.len() - 1]).expect("a file");
     fs::write(at.join("text.whp"), "state").expect("a file");
     fs::write(at.join("whole.whp"), file).expect("a file");
@@ -384,6 +403,8 @@ fn runs_that_cannot_go_on_are_refused() {
         (&short, &["--out", "new", "--resume", "altered.whp"]),
         (&short, &["--out", "new", "--resume", "text.whp"]),
         (&short, &["--out", "new", "--resume", "none.whp"]),
+        (&short, &["--out", "new", "--resume", "out"]),
+        (&short, &["--out", "new", "--resume", "out/altered.whp"]),
         (&short, &["--out", "new", "--resume", "whole.whp", "--stop", "1"]),
         (&["run", "long-rod"], &["--out", "new", "--resume", "whole.whp"]),
         (&["run", "planar-impact"], &["--out", "new", "--resume", "whole.whp"]),
@@ -394,6 +415,7 @@ fn runs_that_cannot_go_on_are_refused() {
         (&["run", "long-rod"], &["--out", "new", "--vtu", "0us"]),
         (&["run", "long-rod"], &["--out", "new", "--vtu", "5 parsecs"]),
         (&["run", "long-rod"], &["--out", "new", "--max-wall", "30"]),
+        (&["run", "long-rod"], &["--out", "new", "--max-wall", "0s"]),
         (&["run", "long-rod"], &["--vtu", "5us"]),
         (&["run", "long-rod"], &["--max-wall", "1min"]),
         (&["run", "long-rod"], &["--godunov", "--resume", "whole.whp"]),
@@ -410,9 +432,9 @@ fn runs_that_cannot_go_on_are_refused() {
         };
         let line = |line: &str| line.split(' ').map(plain).collect::<Vec<_>>().join(" ");
         let mut lines: Vec<String> = err.lines().map(line).collect();
-        if lines[0].ends_with(" bytes") {
-            let cut = lines[0].rfind(", wanted").expect("what is wanted");
-            lines[0].truncate(cut);
+        if let Some((head, tail)) = lines[0].split_once(" bytes; ") {
+            let (head, _) = head.rsplit_once(' ').expect("a number of bytes");
+            lines[0] = format!("{head} SOME bytes; {tail}");
         }
         let case = if case == short { "run SHORT-ROD".into() } else { case.join(" ") };
         text += &format!("$ whipple {case} {}\n{}\n\n", args.join(" "), lines.join("\n"));

@@ -90,7 +90,7 @@ fn a_run_continues_from_its_file_bit_for_bit() {
     };
     let photos = vec![photo("first"), photo("second")];
     let measured = Measured { looks: looks.to_vec(), worst, cpu_seconds: 1.5, photos };
-    let path = save(folder.path(), &scene, &after(&scene, 30), &measured).unwrap();
+    let path = save(folder.path(), (&scene, "whipple run"), &after(&scene, 30), &measured).unwrap();
     // A later end is the same scene.
     let longer = Scene { stop_time: 2.0, ..scene.clone() };
     let halted = load(&path, &longer).unwrap();
@@ -109,7 +109,8 @@ fn damaged_and_foreign_files_are_refused_with_the_section() {
     let (scene, folder) = (cubes(), tempfile::tempdir().unwrap());
     let path = folder.path().join("state.whp");
     let measured = Measured::default();
-    let file = pack(&scene, &after(&scene, 5), &measured).unwrap().to_bytes().unwrap();
+    let file =
+        pack((&scene, "whipple run"), &after(&scene, 5), &measured).unwrap().to_bytes().unwrap();
     let said = |file: &[u8], scene: &Scene| {
         fs::write(&path, file).unwrap();
         load(&path, scene).unwrap_err().to_string()

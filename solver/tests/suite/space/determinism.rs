@@ -95,3 +95,21 @@ fn any_unit_of_density() {
     let (whole, small) = (steps(1.0), steps(1.0 / 1024.0));
     assert!((whole.0 / small.0 - 1.0).abs() < 1e-9 && whole.1 == small.1, "{whole:?} {small:?}");
 }
+
+/// At a time that is reached there is no step: not of length zero, and not back.
+#[test]
+fn a_time_that_is_reached_is_no_step() {
+    let mut simulation = start(&rod(5, 10, [12, 5, 8]));
+    for reached in [0.0, 0.5] {
+        simulation.advance_to(reached).expect("the rod runs");
+        let before = (bits(&simulation), simulation.counters(), simulation.last_step().to_bits());
+        for until in [reached, 0.5 * reached, -1.0, f64::NEG_INFINITY] {
+            simulation.step(until).expect("nothing can fail");
+            assert_eq!(simulation.time().to_bits(), reached.to_bits());
+        }
+        let after = (bits(&simulation), simulation.counters(), simulation.last_step().to_bits());
+        assert_eq!(before, after);
+    }
+    simulation.step(1.0).expect("it goes on");
+    assert!(simulation.time() > 0.5 && simulation.balance().energy_drift() < 1e-12);
+}

@@ -1,0 +1,280 @@
+//! What a run leaves for its reader: text or JSON on standard output, files in its folder.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use serde::Serialize;
+
+use super::Failure;
+use crate::cases::Case;
+use crate::claims::{Claim, Kind, Quantity, Verdict, Weight, judge};
+use crate::files::write_atomic;
+use crate::pictures::{PICTURES, write_photos};
+use crate::record::{Outcome, Records, RunKey, RunRecord, Scheme, Series};
+use crate::report::sig;
+use crate::run::Run;
+use crate::suite::write_record;
+
+/// What `--json` prints.
+#[derive(Serialize)]
+struct Summary<'a> {
+    case: &'a str,
+    variant: &'a str,
+    preset: Option<&'static str>,
+    density: Option<&'static str>,
+    n: usize,
+    threads: usize,
+    outcome: &'a Outcome,
+    steps: u64,
+    particle_steps: u64,
+    cpu_seconds: f64,
+    energy_drift: f64,
+    momentum_drift: f64,
+    norms: &'a BTreeMap<String, f64>,
+    counters: Option<whipple_solver::counters::Counters>,
+    limiters: Option<whipple_solver::timestep::Decided>,
+    #[serde(flatten)]
+    space: Option<SpaceSummary>,
+    provenance: &'a crate::record::Provenance,
+}
+
+/// What it prints of a run in three dimensions besides.
+#[derive(Serialize)]
+struct SpaceSummary {
+    particles: usize,
+    elements: usize,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    residual_length_cm: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    residual_velocity_km_s: Option<f64>,
+    mass_error: f64,
+    geometry_mass_error: f64,
+    angular_momentum_drift: f64,
+    ledger_residual: f64,
+    failed_elements: usize,
+    updates_per_cpu_second: f64,
+    bytes_per_particle: f64,
+}
+
+impl SpaceSummary {
+    fn new(record: &RunRecord) -> Option<Self> {
+        let space = record.space?;
+        let norm = |name: &str| record.norms.get(name).copied();
+        Some(Self {
+            particles: space.particles,
+            elements: space.elements,
+            residual_length_cm: norm("residual_length_cm"),
+            residual_velocity_km_s: norm("residual_velocity_km_s"),
+            mass_error: space.mass_error,
+            geometry_mass_error: space.geometry_mass_error,
+            angular_momentum_drift: space.angular_momentum_drift,
+            ledger_residual: space.ledger_residual,
+            failed_elements: space.failed_elements,
+            updates_per_cpu_second: space.updates_per_cpu_second,
+            bytes_per_particle: space.bytes_per_particle,
+        })
+    }
+}
+
+/// One JSON object with everything that a script needs.
+pub(super) fn json(record: &RunRecord) -> Result<String, Failure> {
+    let (preset, density) = match record.key.scheme {
+        Scheme::Godunov => (None, None),
+        Scheme::Particles { preset, density } => (Some(preset.name()), Some(density.name())),
+    };
+    let summary = Summary {
+        case: &record.key.case,
+        variant: &record.key.variant,
+        preset,
+        density,
+        n: record.key.n,
+        threads: record.threads,
+        outcome: &record.outcome,
+        steps: record.steps,
+        particle_steps: record.particle_steps,
+        cpu_seconds: record.cpu_seconds,
+        energy_drift: record.energy_drift,
+        momentum_drift: record.momentum_drift,
+        norms: &record.norms,
+        counters: record.counters,
+        limiters: record.limiters,
+        space: SpaceSummary::new(record),
+        provenance: &record.provenance,
+    };
+    let text = serde_json::to_string_pretty(&summary).map_err(Failure::usage)?;
+    Ok(text + "\n")
+}
+
+/// What is wanted of the numbers of a run.
+pub(super) struct Bounds<'a> {
+    case: &'a dyn Case,
+    /// The run of the case as it stands.
+    key: RunKey,
+    /// Whether `--set` or `--stop` made another run of it, of which nothing is claimed.
+    changed: bool,
+}
+
+impl<'a> Bounds<'a> {
+    /// Those of the run `key` of a case, or of one that was changed.
+    pub(super) fn new(case: &'a dyn Case, key: RunKey, changed: bool) -> Self {
+        Self { case, key, changed }
+    }
+
+    /// The claims of the run that its record alone decides.
+    fn verdicts(&self, record: &RunRecord) -> Vec<Verdict> {
+        if record.outcome != Outcome::Completed {
+            return Vec::new();
+        }
+        let mut records = Records::default();
+        records.insert(RunRecord { key: self.key.clone(), ..record.clone() });
+        let own = |claim: &Claim| claim.quantity.runs().iter().all(|key| *key == self.key);
+        judge(self.case.claims().into_iter().filter(own).collect(), &records)
+    }
+
+    /// What is wanted of a number and, in a run of the case as it stands, whether it is that.
+    fn judgement(&self, verdict: &Verdict) -> String {
+        let wanted = reference(&verdict.claim);
+        if self.changed { wanted } else { format!("{wanted}: {}", verdict.word()) }
+    }
+
+    /// The value that other runs of the variant are held against, if it is one for all sizes.
+    fn elsewhere(&self, name: &str) -> Option<String> {
+        let claims = self.case.claims();
+        let mut values = claims.iter().filter_map(|claim| {
+            let Quantity::Norm(key, norm) = &claim.quantity else { return None };
+            let target = claim.wanted.target()?;
+            let same = *norm == name && key.variant == self.key.variant;
+            same.then(|| format!("{} {}", against(claim.kind), sig(target, 5)))
+        });
+        let first = values.next()?;
+        values.all(|other| other == first).then_some(first)
+    }
+}
+
+/// What a claim of a kind is held against.
+fn against(kind: Kind) -> &'static str {
+    match kind {
+        Kind::Verification => "exact",
+        Kind::Replication => "paper",
+        Kind::Validation => "experiment",
+        Kind::Comparison => "other codes",
+        Kind::Cost | Kind::Stability => "wanted",
+    }
+}
+
+/// What a claim wants, after what it is held against.
+fn reference(claim: &Claim) -> String {
+    let wanted = claim.wanted.text();
+    match (claim.wanted.target(), claim.weight) {
+        (Some(_), _) => format!("{} {wanted}", against(claim.kind)),
+        (None, Weight::Aim) => format!("goal {wanted}"),
+        (None, _) => format!("wanted {wanted}"),
+    }
+}
+
+/// Name of the row that a quantity is printed in, if it has one.
+fn row_of(quantity: &Quantity) -> Option<&str> {
+    Some(match quantity {
+        Quantity::Norm(_, name) => name,
+        Quantity::EnergyDrift(_) => ENERGY,
+        Quantity::MomentumDrift(_) => MOMENTUM,
+        Quantity::AngularDrift(_) => ANGULAR,
+        Quantity::Residual(_) => RESIDUAL,
+        Quantity::GeometryMass(_) => GEOMETRY,
+        Quantity::WrongParticles(..)
+        | Quantity::Order(..)
+        | Quantity::Change(..)
+        | Quantity::Speed(_)
+        | Quantity::CpuSeconds(_) => return None,
+    })
+}
+
+const ENERGY: &str = "energy drift";
+const MOMENTUM: &str = "momentum drift";
+const ANGULAR: &str = "angular momentum drift";
+const RESIDUAL: &str = "residual of elements";
+const GEOMETRY: &str = "error of the meshed mass";
+
+/// The numbers of a run, a line each, with what is wanted of them.
+pub(super) fn text(bounds: &Bounds, record: &RunRecord) -> String {
+    let case = bounds.case;
+    let mut out =
+        format!("{}: {}, n = {}\n", case.title(), record.key.scheme.label(), record.key.n);
+    let verdicts = bounds.verdicts(record);
+    let mut row = |name: &str, value: String| {
+        let own = verdicts.iter().filter(|v| row_of(&v.claim.quantity) == Some(name));
+        let mut wanted: Vec<String> = own.map(|v| bounds.judgement(v)).collect();
+        if wanted.is_empty() {
+            wanted.extend(bounds.elsewhere(name));
+        }
+        let line = format!("  {name:<28} {value:<12} {}", wanted.join("; "));
+        out += line.trim_end();
+        out += "\n";
+    };
+    for (name, value) in &record.norms {
+        row(name, sig(*value, 5));
+    }
+    row(ENERGY, sig(record.energy_drift, 2));
+    row(MOMENTUM, sig(record.momentum_drift, 2));
+    if let Some(space) = &record.space {
+        row(ANGULAR, sig(space.angular_momentum_drift, 2));
+        row(RESIDUAL, sig(space.ledger_residual, 2));
+        row(GEOMETRY, sig(space.geometry_mass_error, 2));
+        row("particles of the scene", space.particles.to_string());
+        row("elements", space.elements.to_string());
+        row("failed elements", space.failed_elements.to_string());
+        row("updates per CPU second", sig(space.updates_per_cpu_second, 3));
+        row("bytes per particle", sig(space.bytes_per_particle, 3));
+    }
+    if let Some(floored) = record.counters.map(|c| c.floored).filter(|&floored| floored > 0) {
+        row("held at the least density", floored.to_string());
+    }
+    row("steps", record.steps.to_string());
+    row("particle-steps", record.particle_steps.to_string());
+    row("CPU seconds", sig(record.cpu_seconds, 3));
+    for verdict in verdicts.iter().filter(|v| row_of(&v.claim.quantity).is_none()) {
+        let value = verdict.value.map_or(verdict.note.clone(), |value| sig(value, 4));
+        out += &format!("  {}: {value}, {}\n", verdict.claim.what, bounds.judgement(verdict));
+    }
+    if record.outcome != Outcome::Completed {
+        return out;
+    }
+    let note = match (verdicts.is_empty(), bounds.changed) {
+        (true, _) => "No claim is made of this run alone",
+        (false, true) => "What is wanted is of the case as it stands, and not judged here",
+        (false, false) => "Orders and changes are claimed of several runs",
+    };
+    out + &format!("{note}; `whipple list {}` has all claims.\n", case.id())
+}
+
+/// Writes the record, the frozen scene, the fields and the pictures.
+pub(super) fn write_outputs(out: &Path, done: &Run) -> Result<(), Failure> {
+    let record = &done.record;
+    if let Some(scene) = &record.scene {
+        let toml = toml::to_string_pretty(scene).map_err(Failure::usage)?;
+        write_atomic(&out.join("scene.toml"), toml.as_bytes())?;
+    }
+    for (name, series) in [("profile.csv", &record.profile), ("history.csv", &record.history)] {
+        if let Some(series) = series {
+            write_atomic(&out.join(name), csv(series)?.as_bytes())?;
+        }
+    }
+    if !done.photos.is_empty() {
+        write_photos(&out.join(PICTURES), &done.photos)?;
+    }
+    // Last, so that a record always has its fields beside it.
+    Ok(write_record(&out.join("record.json"), record)?)
+}
+
+fn csv(series: &Series) -> Result<String, Failure> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    let failed = |e: csv::Error| Failure::usage(format!("cannot make a CSV table: {e}"));
+    writer.write_record(series.0.keys()).map_err(failed)?;
+    let rows = series.0.values().map(Vec::len).max().unwrap_or(0);
+    for k in 0..rows {
+        let cell = |column: &Vec<f64>| column.get(k).map_or(String::new(), ToString::to_string);
+        writer.write_record(series.0.values().map(cell)).map_err(failed)?;
+    }
+    let bytes = writer.into_inner().map_err(Failure::usage)?;
+    Ok(String::from_utf8_lossy(&bytes).into_owned())
+}

@@ -1,0 +1,157 @@
+//! Sizes and memory: what is said before a run that cannot be, or that is large.
+
+use whipple_solver::error::SceneError;
+
+use super::{Failure, say};
+use crate::cases::{Case, Level};
+use crate::memory::{Fit, Keeps, Need, available, bytes_text, fit};
+use crate::record::RunKey;
+use crate::scene::AnyScene;
+use crate::suite::scene_of;
+
+/// How far beyond a size that does not fit the next is looked for.
+const FURTHER: usize = 100;
+
+/// A run this many times as large as the largest of the levels is mentioned.
+const UNTRIED: usize = 8;
+
+/// A size that the case cannot have, and the nearest that it can.
+pub(super) fn no_size(case: &dyn Case, key: &RunKey, error: &SceneError) -> Failure {
+    let fits = |n: usize| {
+        let key = RunKey { n, ..key.clone() };
+        scene_of(case, &key).is_none_or(|scene| scene.validate().is_ok())
+    };
+    let n = key.n;
+    let advice = match (n + 1..=n.saturating_add(FURTHER)).find(|&n| fits(n)) {
+        Some(next) => format!("the next size that it can have is {next}"),
+        None => {
+            format!("the largest that it can have is {}", largest(case.default_size(), n, fits))
+        }
+    };
+    Failure::usage(format!("`{}` cannot have --n {n}: {error}; {advice}", case.id()))
+}
+
+/// The largest size that fits, between one that does and one that does not.
+fn largest(mut low: usize, mut high: usize, fits: impl Fn(usize) -> bool) -> usize {
+    while low + 1 < high {
+        let middle = low + (high - low) / 2;
+        if fits(middle) { low = middle } else { high = middle }
+    }
+    low
+}
+
+/// The largest size that the levels run.
+pub(super) fn largest_tried(case: &dyn Case) -> usize {
+    let sizes = case.runs(Level::Full).into_iter().map(|key| key.n);
+    sizes.max().unwrap_or(0).max(case.default_size())
+}
+
+/// Refuses what needs more memory than there is, and mentions what is large. The size is given with the
+/// option that sets it.
+pub(super) fn expect(
+    case: &dyn Case,
+    size: (&str, usize),
+    scene: &AnyScene,
+    keeps: Keeps,
+) -> Result<(), Failure> {
+    let need = Need::of(scene, keeps);
+    match outlook(case, size, need, available()) {
+        Err(why) => Err(Failure::usage(why)),
+        Ok(None) => Ok(()),
+        Ok(Some(note)) => {
+            say(&format!("note: {note}"));
+            Ok(())
+        }
+    }
+}
+
+/// What is said of a need where so much memory is available; refused in the error.
+fn outlook(
+    case: &dyn Case,
+    (option, n): (&str, usize),
+    need: Need,
+    available: Option<u64>,
+) -> Result<Option<String>, String> {
+    let what = format!(
+        "`{}` with {option} {n} has about {} particles and needs about {} of memory",
+        case.id(),
+        grouped(need.particles),
+        bytes_text(need.bytes)
+    );
+    let room = available.map_or(String::new(), bytes_text);
+    let tried = largest_tried(case);
+    match fit(need, available) {
+        Fit::Not => Err(format!("{what}, and {room} are available; take a smaller {option}")),
+        Fit::Tightly => Ok(Some(format!("{what}, more than half of the {room} available"))),
+        Fit::Well if n > UNTRIED * tried => Ok(Some(format!(
+            "{what}; the largest size of the levels is {tried}, and steps grow in number with n as well"
+        ))),
+        Fit::Well => Ok(None),
+    }
+}
+
+/// A count with its digits in groups of three.
+fn grouped(count: u64) -> String {
+    let digits = count.to_string();
+    let mut out = String::new();
+    for (k, digit) in digits.chars().enumerate() {
+        if k > 0 && (digits.len() - k).is_multiple_of(3) {
+            out.push(' ');
+        }
+        out.push(digit);
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cases::{ALL, find};
+    use crate::record::Scheme;
+    use whipple_solver::method::Preset;
+
+    /// What is wrong with a size of a case.
+    fn wrong(case: &dyn Case, n: usize) -> Option<SceneError> {
+        let key = RunKey::new(case.id(), Scheme::preset(Preset::Default), n);
+        scene_of(case, &key).expect("a scene").validate().err()
+    }
+
+    /// Every case says of every small size whether it can be, and none panics over it.
+    #[test]
+    fn sizes_that_cannot_be_name_one_that_can() {
+        let mut refused = 0;
+        for case in ALL {
+            for n in (1..=24).chain([20_000, 100_000_000]) {
+                let Some(error) = wrong(case, n) else { continue };
+                refused += 1;
+                let key = RunKey::new(case.id(), Scheme::preset(Preset::Default), n);
+                let said = no_size(case, &key, &error).message;
+                let named = said.rsplit(' ').next().and_then(|word| word.parse().ok());
+                assert!(named.is_some_and(|named| wrong(case, named).is_none()), "{said}");
+            }
+        }
+        assert!(refused > ALL.len(), "{refused}");
+    }
+
+    #[test]
+    fn large_runs_are_mentioned_and_too_large_ones_refused() {
+        let case = find("noh-space").expect("the case");
+        let scene = |variant: &str, n| case.scene(Preset::Default, variant, n);
+        let said = |variant: &str, n, room| {
+            outlook(case, ("--n", n), Need::of(&scene(variant, n), Keeps::default()), room)
+        };
+        assert_eq!(said("spherical", 24, Some(1 << 30)), Ok(None));
+        let tight = said("spherical", 100, Some(1_500_000_000)).expect("it fits").expect("a note");
+        assert!(tight.ends_with("more than half of the 1.5 GB available"), "{tight}");
+        let refused = said("spherical", 250, Some(8_000_000_000)).expect_err("too large");
+        assert_eq!(
+            refused,
+            "`noh-space` with --n 250 has about 31 438 251 particles and needs about 15.7 GB of \
+             memory, and 8.0 GB are available; take a smaller --n"
+        );
+        let large = said("", 4000, Some(1 << 40)).expect("it fits").expect("a note");
+        assert!(large.contains("the largest size of the levels is 24"), "{large}");
+        // Elsewhere nothing is known of the memory.
+        assert_eq!(said("spherical", 150, None), Ok(None));
+    }
+}
