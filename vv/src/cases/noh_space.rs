@@ -33,6 +33,8 @@ const ACROSS: usize = 2;
 const REACH: f64 = 0.35;
 /// Part of the radius of the shock over which the state behind it is averaged.
 const INSIDE: [f64; 2] = [0.3, 0.8];
+/// Order of the L1 error wanted at least, as along a line.
+const ORDER: f64 = 0.8;
 /// First entry of the run, over its end: the first step knows of no wave yet.
 const FIRST: f64 = 1e-4;
 const CYLINDRICAL: &str = "cylindrical";
@@ -81,8 +83,8 @@ impl Case for NohSpace {
          scene states them. Pyramids have the stiffness of the gas against being denser than their \
          cell (`hourglass` 1, decision 0017). Cells on the axis and in the centre end as slivers: the \
          few that die are counted, and their particles have the density of contacts. Density is \
-         averaged from 0.3 to 0.8 of the radius of the exact shock, L1 is by exact volume to \
-         r = 0.35. n counts the cells along the unit of length."
+         averaged from 0.3 to 0.8 of the radius of the exact shock, scatter is the root mean square \
+         about that mean over the exact density, L1 is by exact volume to r = 0.35. n counts the cells along the unit of length."
     }
 
     fn source(&self) -> &'static str {
@@ -196,6 +198,7 @@ impl Case for NohSpace {
         let source = "exact solution; tolerances of `references/verification_problems.toml`";
         let must = Claims::new(ID, Kind::Verification, Weight::Must, source);
         let shown = Claims { weight: Weight::Shown, ..must };
+        let aim = Claims { weight: Weight::Aim, ..must };
         let mut out = Vec::new();
         for variant in VARIANTS {
             let (name, share) = if variant.is_empty() { ("planar", 0.01) } else { (variant, 0.1) };
@@ -209,6 +212,17 @@ impl Case for NohSpace {
                 format!("{name}: radius of the shock, error"),
                 norm("shock_error"),
                 Wanted::WithinZero(0.03),
+            ));
+            let swings = Claims { source: "the tolerance of the mean, of every particle", ..aim };
+            out.push(swings.claim(
+                format!("{name}: scatter of the density behind the shock, rms"),
+                norm("scatter"),
+                Wanted::AtMost(share),
+            ));
+            out.push(aim.claim(
+                format!("{name}: order of the L1 error of the density"),
+                Quantity::Order(SIZES.map(|n| default_key(variant, n)).into(), "density_l1"),
+                Wanted::AtLeast(ORDER),
             ));
             out.extend(super::conservation_in_space(ID, &default_key(variant, SIZES[0])));
         }
