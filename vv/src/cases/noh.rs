@@ -16,7 +16,7 @@ use whipple_solver::units::Units;
 use self::errors::{Errors, Phases, at_stop, exact, plateau_density, profile, state};
 use self::variants::{SUPPORTS, VARIANTS, variants_of, varied};
 use super::gas::eulerian_drift;
-use super::{Case, Claim, Eulerian, Level, both_presets, kernel_default};
+use super::{Case, Claim, Eulerian, Level, both_presets, kernel_default, run_of};
 use crate::exact::Gas;
 use crate::godunov::{self, Domain, Godunov};
 use crate::plots::Figure;
@@ -123,7 +123,7 @@ impl Case for Noh {
 
         let s = driver.solver().snapshot();
         let mut findings = at_stop(&errors(&s), &s.m)?;
-        findings.norms.insert("plateau_density".into(), plateau_density(&s.x, &s.rho));
+        findings.enter("plateau_density", plateau_density(&s.x, &s.rho));
         let mut phases = Phases::default();
         phases.add(&s.x, (&s.lengths(), &s.m), &errors(&s))?;
         // The shock passes particles at 1/3 + 1 times their initial spacing.
@@ -175,7 +175,7 @@ impl Case for Noh {
         };
         let mut findings = at_stop(&errors(&code, STOP), &mass(&code))?;
         let density = plateau_density(&x, &column(&code, |g| g.density));
-        findings.norms.insert("plateau_density".into(), density);
+        findings.enter("plateau_density", density);
         let columns = [
             ("velocity", column(&code, |g| g.velocity)),
             ("density", column(&code, |g| g.density)),
@@ -207,7 +207,7 @@ impl Case for Noh {
             keys.extend(sizes.iter().map(|&n| RunKey::new(ID, scheme, n)));
         }
         for preset in Preset::ALL {
-            let key = |v: &&str| RunKey::new(ID, Scheme::preset(preset), DRAWN).variant(v);
+            let key = |v: &&str| run_of(ID, preset, DRAWN).variant(v);
             keys.extend(variants_of(preset).iter().map(key));
         }
         let kernel = |(v, _): &(&str, f64)| RunKey::new(ID, kernel_default(), DRAWN).variant(v);

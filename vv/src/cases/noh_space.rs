@@ -6,13 +6,14 @@ use whipple_solver::space::method::Method;
 use whipple_solver::space::scene::{Body, Scene, Shape, Side};
 use whipple_solver::units::Units;
 
+use super::figures::{beside_exact, figure, profiles};
 use super::parts::shells::{edge, outward, radius, shells};
 use super::parts::{Columns, gas, mirror, moments, motion, resting};
-use super::{Case, Claim, Claims, Kind, Level, Quantity, Wanted, Weight};
+use super::{Case, Claim, Claims, Kind, Level, Quantity, Wanted, Weight, default_run, named};
 use crate::exact::Geometry;
 use crate::exact::noh::Noh as Exact;
-use crate::plots::{Axis, Figure, Layer, Panel, Series as Curve};
-use crate::record::{Records, RunKey, Scheme};
+use crate::plots::{Axis, Figure, Panel};
+use crate::record::{Records, RunKey};
 use crate::run::{Findings, RunError, SpaceDriver};
 use crate::scene::AnyScene;
 
@@ -37,6 +38,7 @@ const INSIDE: [f64; 2] = [0.3, 0.8];
 const ORDER: f64 = 0.8;
 /// First entry of the run, over its end: the first step knows of no wave yet.
 const FIRST: f64 = 1e-4;
+const PLANAR: &str = "planar";
 const CYLINDRICAL: &str = "cylindrical";
 const SPHERICAL: &str = "spherical";
 const VARIANTS: [&str; 3] = ["", CYLINDRICAL, SPHERICAL];
@@ -53,10 +55,6 @@ fn geometry(variant: &str) -> Geometry {
 
 fn exact(geometry: Geometry) -> Result<Exact, RunError> {
     Ok(Exact::new(geometry, GAMMA, 1.0, 1.0)?)
-}
-
-fn default_key(variant: &str, n: usize) -> RunKey {
-    RunKey::new(ID, Scheme::preset(Preset::Default), n).variant(variant)
 }
 
 /// Densities behind the shock of particles away from the centre.
@@ -161,15 +159,14 @@ impl Case for NohSpace {
             }
         }
         let mut findings = Findings::default();
-        let mut enter = |name: &str, value: f64| findings.norms.insert(name.into(), value);
-        enter("density", density);
-        enter("density_error", density / state.density - 1.0);
-        enter("scatter", scatter / state.density);
+        findings.enter("density", density);
+        findings.enter("density_error", density / state.density - 1.0);
+        findings.enter("scatter", scatter / state.density);
         let found = edge(&shells, |s| s.density, level).unwrap_or(f64::NAN);
-        enter("shock_error", found / shock - 1.0);
-        enter("density_l1", misfit / volume);
-        enter("velocity_l1", speed / volume);
-        enter("dead_elements", solver.failed().1 as f64);
+        findings.enter("shock_error", found / shock - 1.0);
+        findings.enter("density_l1", misfit / volume);
+        findings.enter("velocity_l1", speed / volume);
+        findings.enter("dead_elements", solver.failed().1 as f64);
         let mut profile = Columns::default();
         for s in &shells {
             let wanted = exact.sample(s.radius, time)?;
@@ -184,12 +181,12 @@ impl Case for NohSpace {
     }
 
     fn runs(&self, level: Level) -> Vec<RunKey> {
-        let mut keys: Vec<RunKey> = VARIANTS.map(|v| default_key(v, SIZES[0])).into();
+        let mut keys: Vec<RunKey> = VARIANTS.map(|v| default_run(ID, SIZES[0]).variant(v)).into();
         if level >= Level::Standard {
-            keys.extend(VARIANTS.map(|v| default_key(v, SIZES[1])));
+            keys.extend(VARIANTS.map(|v| default_run(ID, SIZES[1]).variant(v)));
         }
         if level == Level::Full {
-            keys.extend(VARIANTS.map(|v| default_key(v, SIZES[2])));
+            keys.extend(VARIANTS.map(|v| default_run(ID, SIZES[2]).variant(v)));
         }
         keys
     }
@@ -201,8 +198,9 @@ impl Case for NohSpace {
         let aim = Claims { weight: Weight::Aim, ..must };
         let mut out = Vec::new();
         for variant in VARIANTS {
-            let (name, share) = if variant.is_empty() { ("planar", 0.01) } else { (variant, 0.1) };
-            let norm = |name| Quantity::Norm(default_key(variant, SIZES[2]), name);
+            let name = named(variant, PLANAR);
+            let share = if name == PLANAR { 0.01 } else { 0.1 };
+            let norm = |name| Quantity::Norm(default_run(ID, SIZES[2]).variant(variant), name);
             out.push(shown.claim(
                 format!("{name}: density behind the shock, error"),
                 norm("density_error"),
@@ -221,10 +219,16 @@ impl Case for NohSpace {
             ));
             out.push(aim.claim(
                 format!("{name}: order of the L1 error of the density"),
-                Quantity::Order(SIZES.map(|n| default_key(variant, n)).into(), "density_l1"),
+                Quantity::Order(
+                    SIZES.map(|n| default_run(ID, n).variant(variant)).into(),
+                    "density_l1",
+                ),
                 Wanted::AtLeast(ORDER),
             ));
-            out.extend(super::conservation_in_space(ID, &default_key(variant, SIZES[0])));
+            out.extend(super::conservation_in_space(
+                ID,
+                &default_run(ID, SIZES[0]).variant(variant),
+            ));
         }
         out
     }
@@ -242,27 +246,15 @@ impl Case for NohSpace {
     }
 
     fn figures(&self, records: &Records) -> Vec<Figure> {
-        let panels: Vec<Panel> = VARIANTS
-            .iter()
-            .filter_map(|variant| {
-                let title = if variant.is_empty() { "planar" } else { variant };
-                let mut panel = Panel::new(title, Axis::linear("radius"), Axis::linear("density"));
-                let mut exact = None;
-                for n in SIZES {
-                    let record = records.get(&default_key(variant, n));
-                    let Some(profile) = record.and_then(|r| r.profile.as_ref()) else { continue };
-                    let points = profile.points("radius", "density");
-                    panel = panel.with(Curve::line(format!("n = {n}"), points));
-                    exact = Some(profile.points("radius", "exact"));
-                }
-                exact.map(|points| panel.with(Layer::exact("exact", points)))
-            })
-            .collect();
-        if panels.is_empty() {
-            return Vec::new();
-        }
+        let panels = VARIANTS.iter().filter_map(|variant| {
+            let [radius, density] = ["radius", "density"].map(Axis::linear);
+            let runs = SIZES.map(|n| (format!("n = {n}"), default_run(ID, n).variant(variant)));
+            let panel = Panel::new(named(variant, PLANAR), radius, density);
+            let columns = ["radius", "density", "exact"];
+            beside_exact(panel, &profiles(records, runs), columns, "exact")
+        });
         let caption = "Density over the distance from plane, axis and centre at t = 0.6, means of thin \
                        shells by mass.";
-        vec![Figure::new("noh-space-density", caption, panels)]
+        figure("noh-space-density", caption, panels)
     }
 }

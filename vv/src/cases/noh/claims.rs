@@ -4,8 +4,10 @@ use whipple_solver::method::Preset;
 
 use super::tables::TABLE_2;
 use super::{ID, SIZES};
-use crate::cases::{Claim, Claims, Kind, Quantity, Wanted, Weight, conservation};
-use crate::record::{RunKey, Scheme};
+use crate::cases::{
+    Claim, Claims, Kind, Quantity, Wanted, Weight, conservation, default_run, paper_run, run_of,
+};
+use crate::record::RunKey;
 
 /// 1D study, section 2, reading A converged in the time step.
 const STUDY: [(usize, f64, f64); 4] = [
@@ -20,7 +22,7 @@ pub(super) fn all() -> Vec<Claim> {
     let mut out = table_2();
     out.extend(accuracy());
     out.extend(orders());
-    let default = |n| RunKey::new(ID, Scheme::preset(Preset::Default), n);
+    let default = |n| default_run(ID, n);
     for n in [100, 800] {
         out.extend(conservation(ID, &default(n)));
     }
@@ -32,7 +34,7 @@ pub(super) fn all() -> Vec<Claim> {
     ));
     out.push(cost.claim(
         "CPU seconds, n = 800, `paper`",
-        Quantity::CpuSeconds(RunKey::new(ID, Scheme::preset(Preset::Paper), 800)),
+        Quantity::CpuSeconds(paper_run(ID, 800)),
         Wanted::AtMost(5.0),
     ));
     out
@@ -51,7 +53,7 @@ fn table_2() -> Vec<Claim> {
         [(paper, TABLE_2, 0.02, "Table 2"), (study, STUDY, 0.005, "study")]
     {
         for (n, velocity, temperature) in rows {
-            let key = RunKey::new(ID, Scheme::preset(Preset::Paper), n);
+            let key = paper_run(ID, n);
             for (name, symbol, value) in
                 [("velocity_rms", "v", velocity), ("temperature_rms", "θ", temperature)]
             {
@@ -73,7 +75,7 @@ fn accuracy() -> Vec<Claim> {
     let aim = Claims { weight: Weight::Aim, source: "issue: goal beyond the prototype", ..must };
     let mut out = Vec::new();
     for n in [100, 400] {
-        let key = RunKey::new(ID, Scheme::preset(Preset::Default), n);
+        let key = default_run(ID, n);
         let wrong = |name| Quantity::WrongParticles(key.clone(), name);
         let rows = [
             ("n·rms² of v", wrong("velocity_rms_phase"), 0.20, 0.15),
@@ -89,7 +91,7 @@ fn accuracy() -> Vec<Claim> {
         out.push(must.claim(what.clone(), heating.clone(), Wanted::WithinZero(0.05)));
         out.push(aim.claim(what, heating, Wanted::WithinZero(0.01)));
     }
-    let key = RunKey::new(ID, Scheme::preset(Preset::Default), 100);
+    let key = default_run(ID, 100);
     let window = Quantity::Norm(key, "velocity_l1_window");
     let what = "window L1 of v, mean over phases, n = 100, `default`";
     out.push(must.claim(what, window.clone(), Wanted::AtMost(0.012)));
@@ -104,7 +106,7 @@ fn orders() -> Vec<Claim> {
     let must = Claims::new(ID, Kind::Verification, Weight::Must, source);
     let mut out = Vec::new();
     for preset in Preset::ALL {
-        let runs = |n: &usize| RunKey::new(ID, Scheme::preset(preset), *n);
+        let runs = |n: &usize| run_of(ID, preset, *n);
         let keys: Vec<RunKey> = SIZES.iter().map(runs).collect();
         let rows = [
             ("velocity_rms_phase", "rms v", 0.50, 0.03),

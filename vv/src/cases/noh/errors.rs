@@ -64,7 +64,7 @@ impl Phases {
             ("temperature_l1_window", Norm::L1, &self.temperature_window),
         ];
         for (name, norm, values) in averages {
-            findings.norms.insert(name.into(), norm.phase_average(values)?);
+            findings.enter(name, norm.phase_average(values)?);
         }
         Ok(())
     }
@@ -89,14 +89,13 @@ pub(super) fn plateau_density(x: &[f64], density: &[f64]) -> f64 {
 /// Norms that need one time only.
 pub(super) fn at_stop(errors: &Errors, mass: &[f64]) -> Result<Findings, RunError> {
     let mut findings = Findings::default();
-    let mut enter = |name: &str, value| findings.norms.insert(name.into(), value);
-    enter("velocity_rms", norms::rms(&errors.velocity)?);
-    enter("temperature_rms", norms::rms(&errors.temperature)?);
-    enter("velocity_l1", norms::l1_weighted(&errors.velocity, mass)?);
-    enter("temperature_l1", norms::l1_weighted(&errors.temperature, mass)?);
-    enter("wall_heating", errors.temperature[0] / 0.5);
+    findings.enter("velocity_rms", norms::rms(&errors.velocity)?);
+    findings.enter("temperature_rms", norms::rms(&errors.temperature)?);
+    findings.enter("velocity_l1", norms::l1_weighted(&errors.velocity, mass)?);
+    findings.enter("temperature_l1", norms::l1_weighted(&errors.temperature, mass)?);
+    findings.enter("wall_heating", errors.temperature[0] / 0.5);
     let near = errors.temperature.iter().take(5).fold(0.0_f64, |top, e| top.max(e.abs()));
-    enter("wall_heating_linf", near / 0.5);
+    findings.enter("wall_heating_linf", near / 0.5);
     Ok(findings)
 }
 
