@@ -6,6 +6,7 @@ use whipple_solver::scene::{
 };
 use whipple_solver::units::Units;
 
+use super::figures::histories;
 use super::{
     Case, Claim, Claims, Kind, Level, Quantity, Wanted, Weight, both_presets, conservation,
     default_run, run_of,
@@ -179,13 +180,10 @@ impl Case for BlockCollision {
     fn figures(&self, records: &Records) -> Vec<Figure> {
         let axes = (Axis::linear("time, µs"), Axis::linear("mean velocity of a block / V"));
         let mut panel = Panel::new("", axes.0, axes.1);
-        for preset in Preset::ALL {
-            let key = run_of(ID, preset, self.default_size());
-            let Some(history) = records.get(&key).and_then(|r| r.history.as_ref()) else {
-                continue;
-            };
+        let runs = Preset::ALL.map(|p| (p.name(), run_of(ID, p, self.default_size())));
+        for (preset, history) in histories(records, runs) {
             for (column, which) in [("left", "first"), ("right", "second")] {
-                let name = format!("{which}, {}", preset.name());
+                let name = format!("{which}, {preset}");
                 panel = panel.with(Curve::line(name, history.points("time", column)));
             }
         }

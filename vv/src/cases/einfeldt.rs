@@ -1,7 +1,7 @@
 //! Einfeldt's 123 problem: two streams part and leave almost nothing between them.
 
 use super::Claim;
-use super::gas::{GasProblem, STUDIED, Setup, Sizes, membrane, studied, two_regions};
+use super::gas::{GasProblem, STUDIED, Setup, Sizes, studied};
 use crate::exact::Gas;
 use crate::run::RunError;
 use whipple_solver::scene::{Boundaries, Boundary};
@@ -30,11 +30,8 @@ pub(super) const CASE: GasProblem = GasProblem {
 fn setup(_: &str) -> Result<Setup, RunError> {
     let pushed = Boundary::Pressure(LEFT.pressure);
     Ok(Setup {
-        regions: two_regions((0.0, LEFT), MEMBRANE, (1.0, RIGHT)),
         ends: Boundaries { left: pushed, right: pushed },
-        u_0: 0.0,
-        time: 0.15,
-        exact: membrane(LEFT, MEMBRANE, RIGHT)?,
+        ..Setup::tube((0.0, LEFT), MEMBRANE, (1.0, RIGHT), 0.15)?
     })
 }
 

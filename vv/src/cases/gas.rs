@@ -94,7 +94,7 @@ pub(super) const L1_NORMS: &[(&str, &str)] = &[
 ];
 
 /// Both sides of a membrane, with equal particle spacing over the whole.
-pub(super) fn two_regions(left: (f64, Gas), membrane: f64, right: (f64, Gas)) -> Vec<Region> {
+fn two_regions(left: (f64, Gas), membrane: f64, right: (f64, Gas)) -> Vec<Region> {
     let length = right.0 - left.0;
     let region = |span: (f64, f64), gas| Region {
         span,
@@ -143,6 +143,23 @@ pub(super) fn membrane(left: Gas, place: f64, right: Gas) -> Result<ExactState, 
 }
 
 impl Setup {
+    /// Gases at rest or in motion on both sides of a membrane that breaks, between walls, until a
+    /// time.
+    pub(super) fn tube(
+        left: (f64, Gas),
+        place: f64,
+        right: (f64, Gas),
+        time: f64,
+    ) -> Result<Self, RunError> {
+        Ok(Self {
+            regions: two_regions(left, place, right),
+            ends: walls(left.0, right.0),
+            u_0: 0.0,
+            time,
+            exact: membrane(left.1, place, right.1)?,
+        })
+    }
+
     /// The scene of the problem with `n` particles.
     pub(super) fn scene(&self, name: &str, preset: Preset, n: usize) -> Scene {
         let mut scene = Scene {

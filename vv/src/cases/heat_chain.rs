@@ -6,6 +6,7 @@ use whipple_solver::scene::{
 };
 use whipple_solver::units::Units;
 
+use super::figures::{over, profiles};
 use super::{
     Case, Claim, Claims, Kind, Level, Quantity, Wanted, Weight, both_presets, conservation,
     default_run, run_of,
@@ -152,16 +153,14 @@ impl Case for HeatChain {
 
     fn figures(&self, records: &Records) -> Vec<Figure> {
         let mut panel = Panel::new("", Axis::linear("x"), Axis::linear("temperature"));
-        for preset in Preset::ALL {
-            let key = run_of(ID, preset, self.default_size());
-            let Some(profile) = records.get(&key).and_then(|r| r.profile.as_ref()) else {
-                continue;
-            };
-            if preset == Preset::Paper {
-                let exact = profile.points("x", "temperature_exact");
-                panel = panel.with(Layer::exact("exact, chain", exact));
-            }
-            panel = panel.with(Curve::scatter(preset.name(), profile.points("x", "temperature")));
+        let runs = Preset::ALL.map(|p| (p.name(), run_of(ID, p, self.default_size())));
+        let runs = profiles(records, runs);
+        if let Some((_, profile)) = runs.first() {
+            let exact = profile.points("x", "temperature_exact");
+            panel = panel.with(Layer::exact("exact, chain", exact));
+        }
+        for (name, points) in over(&runs, "x", "temperature") {
+            panel = panel.with(Curve::scatter(name, points));
         }
         let caption = "Fourth mode of an insulated chain of 32 particles at t = 1.";
         vec![Figure::new(ID, caption, vec![panel])]

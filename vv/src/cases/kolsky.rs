@@ -6,6 +6,7 @@ use whipple_solver::scene::{
 };
 use whipple_solver::units::Units;
 
+use super::figures::{curves, figure, histories, over};
 use super::{
     Case, Claim, Claims, Kind, Level, Quantity, Wanted, Weight, both_presets, conservation,
     default_run, paper_run, run_of,
@@ -277,7 +278,7 @@ impl Case for Kolsky {
     fn figures(&self, records: &Records) -> Vec<Figure> {
         let mut figures = Vec::new();
         for variant in [FIXED, FREE] {
-            figures.extend(histories(records, variant));
+            figures.extend(midpoint(records, variant));
         }
         figures.push(speed_against_error(records));
         figures
@@ -290,41 +291,22 @@ fn load_transit() -> f64 {
 }
 
 /// Figures 5 and 6 of the paper.
-fn histories(records: &Records, variant: &str) -> Option<Figure> {
-    let panels: Vec<Panel> = DRAWN
-        .iter()
-        .zip(["Figure 5", "Figure 6"])
-        .filter_map(|(&n, number)| {
-            let title = format!("{number}: {n} particles");
-            let (time, velocity) =
-                (Axis::linear("time, ms"), Axis::linear("midpoint velocity, in/s"));
-            let mut panel = Panel::new(title, time, velocity);
-            let mut seen = false;
-            for preset in Preset::ALL {
-                let key = run_of(ID, preset, n).variant(variant);
-                let Some(history) = records.get(&key).and_then(|r| r.history.as_ref()) else {
-                    continue;
-                };
-                if !seen {
-                    let exact = history.points("time_ms", "velocity_exact");
-                    panel = panel.with(Layer::exact("exact", exact));
-                    seen = true;
-                }
-                let points = history.points("time_ms", "velocity");
-                panel = panel.with(Curve::line(preset.name(), points));
-            }
-            seen.then_some(panel)
-        })
-        .collect();
-    if panels.is_empty() {
-        return None;
-    }
-    let (id, end) = if variant == FREE { ("free", "free") } else { ("fixed", "fixed") };
+fn midpoint(records: &Records, variant: &str) -> Vec<Figure> {
+    let panels = DRAWN.iter().zip(["Figure 5", "Figure 6"]).filter_map(|(&n, number)| {
+        let title = format!("{number}: {n} particles");
+        let (time, velocity) = (Axis::linear("time, ms"), Axis::linear("midpoint velocity, in/s"));
+        let runs = Preset::ALL.map(|p| (p.name(), run_of(ID, p, n).variant(variant)));
+        let runs = histories(records, runs);
+        let exact = runs.first()?.1.points("time_ms", "velocity_exact");
+        let panel = Panel::new(title, time, velocity).with(Layer::exact("exact", exact));
+        curves(panel, over(&runs, "time_ms", "velocity"))
+    });
+    let end = if variant == FREE { "free" } else { "fixed" };
     let caption = format!(
         "Velocity of the midpoint of the bar, end x = 0 {end}: Figures 5 and 6 of the paper, with \
          both presets and the exact solution."
     );
-    Some(Figure::new(format!("kolsky-{id}"), caption, panels))
+    figure(format!("kolsky-{end}"), &caption, panels)
 }
 
 fn speed_against_error(records: &Records) -> Figure {

@@ -1,6 +1,6 @@
 //! LeBlanc's tube, in both forms that go by the name: a huge pressure ratio and a small density ratio.
 
-use super::gas::{GasProblem, Setup, Sizes, membrane, two_regions, walls};
+use super::gas::{GasProblem, Setup, Sizes};
 use super::{Claim, Claims, Kind, Quantity, Wanted, Weight, conservation, default_run};
 use crate::exact::Gas;
 use crate::run::RunError;
@@ -29,13 +29,7 @@ pub(super) const CASE: GasProblem = GasProblem {
 fn setup(variant: &str) -> Result<Setup, RunError> {
     let (density, place) = if variant == "standard" { (1e-3, 1.0 / 3.0) } else { (0.01, 0.3) };
     let right = Gas { density, pressure: COLD, ..LEFT };
-    Ok(Setup {
-        regions: two_regions((0.0, LEFT), place, (1.0, right)),
-        ends: walls(0.0, 1.0),
-        u_0: 0.0,
-        time: 0.5,
-        exact: membrane(LEFT, place, right)?,
-    })
+    Setup::tube((0.0, LEFT), place, (1.0, right), 0.5)
 }
 
 fn claims() -> Vec<Claim> {

@@ -262,7 +262,7 @@ impl Case for PlanarImpact {
             let claims = if metals == IN_SAMPLE { must.in_sample() } else { must };
             let aims = Claims { weight: Weight::Aim, ..claims };
             let (wide, noise) = match speed {
-                "7" => (0.03, 0.04),
+                "7" => (0.03, 0.03),
                 "4" => (0.01, 0.04),
                 _ => (0.01, 0.01),
             };

@@ -1,6 +1,6 @@
 //! Sod's shock tube: every wave of a gas, none of them strong.
 
-use super::gas::{GasProblem, Region, Setup, Sizes, membrane, two_regions, walls};
+use super::gas::{GasProblem, Setup, Sizes};
 use super::{Claim, Claims, Kind, Quantity, Wanted, Weight, conservation, default_run, run_of};
 use crate::exact::Gas;
 use crate::run::RunError;
@@ -29,20 +29,15 @@ pub(super) const CASE: GasProblem = GasProblem {
 };
 
 fn setup(variant: &str) -> Result<Setup, RunError> {
-    let mut regions: Vec<Region> = two_regions((0.0, LEFT), MEMBRANE, (1.0, RIGHT));
+    let mut setup = Setup::tube((0.0, LEFT), MEMBRANE, (1.0, RIGHT), 0.2)?;
+    let regions = &mut setup.regions;
     if variant == "equal-mass" {
         let mass: f64 = regions.iter().map(|r| r.gas.density * (r.span.1 - r.span.0)).sum();
-        for region in &mut regions {
+        for region in regions {
             region.share = region.gas.density * (region.span.1 - region.span.0) / mass;
         }
     }
-    Ok(Setup {
-        regions,
-        ends: walls(0.0, 1.0),
-        u_0: 0.0,
-        time: 0.2,
-        exact: membrane(LEFT, MEMBRANE, RIGHT)?,
-    })
+    Ok(setup)
 }
 
 fn claims() -> Vec<Claim> {

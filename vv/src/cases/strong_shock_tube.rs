@@ -1,6 +1,6 @@
 //! A shock tube with a pressure ratio of 1e5: does the method survive, and where is the shock?
 
-use super::gas::{GasProblem, Setup, Sizes, membrane, two_regions, walls};
+use super::gas::{GasProblem, Setup, Sizes};
 use super::{Claim, Claims, Kind, Quantity, Wanted, Weight, conservation, run_of};
 use crate::exact::Gas;
 use crate::record::RunKey;
@@ -29,13 +29,7 @@ pub(super) const CASE: GasProblem = GasProblem {
 };
 
 fn setup(_: &str) -> Result<Setup, RunError> {
-    Ok(Setup {
-        regions: two_regions((0.0, LEFT), MEMBRANE, (1.0, RIGHT)),
-        ends: walls(0.0, 1.0),
-        u_0: 0.0,
-        time: 0.012,
-        exact: membrane(LEFT, MEMBRANE, RIGHT)?,
-    })
+    Setup::tube((0.0, LEFT), MEMBRANE, (1.0, RIGHT), 0.012)
 }
 
 fn claims() -> Vec<Claim> {

@@ -1,9 +1,7 @@
 //! Noh's problem without a wall: two cold streams collide.
 
 use super::Claim;
-use super::gas::{
-    COLD_PRESSURE, GasProblem, STUDIED, Setup, Sizes, membrane, studied, two_regions,
-};
+use super::gas::{COLD_PRESSURE, GasProblem, STUDIED, Setup, Sizes, studied};
 use crate::exact::Gas;
 use crate::run::RunError;
 use whipple_solver::scene::{Boundaries, Boundary};
@@ -36,11 +34,9 @@ pub(super) fn streams(boost: f64) -> Result<Setup, RunError> {
     let moving = |v| Gas { velocity: v + boost, ..GAS };
     let (left, right) = (moving(1.0), moving(-1.0));
     Ok(Setup {
-        regions: two_regions((-0.5, left), 0.0, (0.5, right)),
         ends: Boundaries { left: Boundary::Free, right: Boundary::Free },
         u_0: 1.0,
-        time: 0.3,
-        exact: membrane(left, 0.0, right)?,
+        ..Setup::tube((-0.5, left), 0.0, (0.5, right), 0.3)?
     })
 }
 

@@ -1,9 +1,7 @@
 //! Cold streams of densities 1 and 8 collide: particle masses jump by 8 at the contact.
 
 use super::Claim;
-use super::gas::{
-    COLD_PRESSURE, GasProblem, STUDIED, Setup, Sizes, membrane, studied, two_regions,
-};
+use super::gas::{COLD_PRESSURE, GasProblem, STUDIED, Setup, Sizes, studied};
 use crate::exact::Gas;
 use crate::run::RunError;
 use whipple_solver::scene::{Boundaries, Boundary};
@@ -29,11 +27,9 @@ pub(super) const CASE: GasProblem = GasProblem {
 
 fn setup(_: &str) -> Result<Setup, RunError> {
     Ok(Setup {
-        regions: two_regions((-0.5, LIGHT), 0.0, (0.5, HEAVY)),
         ends: Boundaries { left: Boundary::Free, right: Boundary::Free },
         u_0: 1.0,
-        time: 0.2,
-        exact: membrane(LIGHT, 0.0, HEAVY)?,
+        ..Setup::tube((-0.5, LIGHT), 0.0, (0.5, HEAVY), 0.2)?
     })
 }
 
