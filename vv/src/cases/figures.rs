@@ -4,26 +4,26 @@ use crate::plots::{Figure, Layer, Panel, Point, Series as Curve};
 use crate::record::{Records, RunKey, RunRecord, Series};
 
 /// The histories of the runs that have one, with the names of the runs.
-pub(super) fn histories<'a, N: Into<String>>(
-    records: &'a Records,
+pub(super) fn histories<N: Into<String>>(
+    records: &Records,
     runs: impl IntoIterator<Item = (N, RunKey)>,
-) -> Vec<(String, &'a Series)> {
+) -> Vec<(String, &Series)> {
     series(records, runs, |record| record.history.as_ref())
 }
 
 /// The profiles of the runs that have one, with the names of the runs.
-pub(super) fn profiles<'a, N: Into<String>>(
-    records: &'a Records,
+pub(super) fn profiles<N: Into<String>>(
+    records: &Records,
     runs: impl IntoIterator<Item = (N, RunKey)>,
-) -> Vec<(String, &'a Series)> {
+) -> Vec<(String, &Series)> {
     series(records, runs, |record| record.profile.as_ref())
 }
 
-fn series<'a, N: Into<String>>(
-    records: &'a Records,
+fn series<N: Into<String>>(
+    records: &Records,
     runs: impl IntoIterator<Item = (N, RunKey)>,
     of: fn(&RunRecord) -> Option<&Series>,
-) -> Vec<(String, &'a Series)> {
+) -> Vec<(String, &Series)> {
     let found = |(name, key): (N, RunKey)| Some((name.into(), of(records.get(&key)?)?));
     runs.into_iter().filter_map(found).collect()
 }
