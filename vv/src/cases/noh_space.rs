@@ -196,27 +196,20 @@ impl Case for NohSpace {
         let must = Claims::new(ID, Kind::Verification, Weight::Must, source);
         let shown = Claims { weight: Weight::Shown, ..must };
         let aim = Claims { weight: Weight::Aim, ..must };
+        let swings = Claims { source: "the tolerance of the mean, of every particle", ..aim };
         let mut out = Vec::new();
         for variant in VARIANTS {
             let name = named(variant, PLANAR);
+            let within = Wanted::WithinZero;
             let share = if name == PLANAR { 0.01 } else { 0.1 };
-            let norm = |name| Quantity::Norm(default_run(ID, SIZES[2]).variant(variant), name);
-            out.push(shown.claim(
-                format!("{name}: density behind the shock, error"),
-                norm("density_error"),
-                Wanted::WithinZero(share),
-            ));
-            out.push(shown.claim(
-                format!("{name}: radius of the shock, error"),
-                norm("shock_error"),
-                Wanted::WithinZero(0.03),
-            ));
-            let swings = Claims { source: "the tolerance of the mean, of every particle", ..aim };
-            out.push(swings.claim(
-                format!("{name}: scatter of the density behind the shock, rms"),
-                norm("scatter"),
-                Wanted::AtMost(share),
-            ));
+            for (claims, text, norm, wanted) in [
+                (shown, "density behind the shock, error", "density_error", within(share)),
+                (shown, "radius of the shock, error", "shock_error", within(0.03)),
+                (swings, "density behind the shock, scatter", "scatter", Wanted::AtMost(share)),
+            ] {
+                let found = Quantity::Norm(default_run(ID, SIZES[2]).variant(variant), norm);
+                out.push(claims.claim(format!("{name}: {text}"), found, wanted));
+            }
             out.push(aim.claim(
                 format!("{name}: order of the L1 error of the density"),
                 Quantity::Order(
