@@ -110,6 +110,13 @@ pub struct Findings {
     pub history: Option<Series>,
 }
 
+impl Findings {
+    /// Enters a named number.
+    pub fn enter(&mut self, name: &str, value: f64) {
+        self.norms.insert(name.into(), value);
+    }
+}
+
 /// A solver with a clock.
 pub struct Driver<'a> {
     solver: Box<dyn Solver>,

@@ -404,32 +404,17 @@ impl Simulation {
     }
 
     fn set_counts(&mut self, counts: &[u64]) {
-        let Ok(
-            [
-                steps,
-                particle_steps,
-                stages,
-                sweeps,
-                work_sweeps,
-                pairs,
-                kernel_evaluations,
-                floored,
-                piece,
-            ],
-        ) = <[u64; 9]>::try_from(counts)
-        else {
-            return;
-        };
+        let Ok(c) = <[u64; 9]>::try_from(counts) else { return };
         self.counters = crate::counters::Counters {
-            steps,
-            particle_steps,
-            stages,
-            sweeps,
-            work_sweeps,
-            pairs,
-            kernel_evaluations,
-            floored,
+            steps: c[0],
+            particle_steps: c[1],
+            stages: c[2],
+            sweeps: c[3],
+            work_sweeps: c[4],
+            pairs: c[5],
+            kernel_evaluations: c[6],
+            floored: c[7],
         };
-        self.allowed.piece = piece as usize;
+        self.allowed.piece = c[8] as usize;
     }
 }

@@ -6,12 +6,13 @@ use whipple_solver::space::scene::{
 };
 use whipple_solver::units::Units;
 
+use super::figures::{curves, figure, histories, over};
 use super::parts::fit::oscillation;
-use super::parts::{Columns, control, mirror, modes, resting};
-use super::{Case, Claim, Claims, Kind, Level, Quantity, Wanted, Weight};
+use super::parts::{control, history, mirror, modes, resting, times};
+use super::{Case, Claim, Claims, Kind, Level, Quantity, Wanted, Weight, default_run, paper_run};
 use crate::exact::beam::{Beam as Exact, Support};
-use crate::plots::{Axis, Figure, Layer, Panel, Series as Curve};
-use crate::record::{Records, RunKey, Scheme};
+use crate::plots::{Axis, Figure, Layer, Panel};
+use crate::record::{Records, RunKey};
 use crate::run::{Findings, RunError, SpaceDriver};
 use crate::scene::AnyScene;
 
@@ -38,10 +39,6 @@ const SIZES: [usize; 3] = [2, 4, 8];
 
 fn exact() -> Result<Exact, RunError> {
     Ok(Exact::new([LENGTH, SIDE], ELASTIC, DENSITY)?)
-}
-
-fn key(preset: Preset, n: usize) -> RunKey {
-    RunKey::new(ID, Scheme::preset(preset), n)
 }
 
 impl Case for Beam {
@@ -133,38 +130,35 @@ impl Case for Beam {
             .collect::<Result<Vec<(u32, f64, f64)>, RunError>>()?;
         let entries = (PER_PERIOD as f64 * PERIODS) as usize;
         let mass = driver.balance().initial.mass;
-        let mut history = Columns::default();
-        for k in 0..=entries {
-            driver.advance_to(scene.stop_time * k as f64 / entries as f64)?;
-            let now = driver.look(|solver, balance| {
-                let deflection: f64 =
-                    weights.iter().map(|(i, w, y)| w * (solver.particle(*i).position[1] - y)).sum();
-                vec![
-                    solver.time(),
-                    deflection / mass,
-                    modes::energies(solver).hourglass / balance.initial.kinetic,
-                    balance.now.energy() / balance.initial.energy(),
-                    balance.now.internal / balance.initial.kinetic,
-                ]
-            })?;
-            history.read(&["time", "deflection", "hourglass", "held", "heat"], &now);
-        }
+        let names = ["time", "deflection", "hourglass", "held", "heat"];
+        let times = times(scene.stop_time, entries);
+        let history = history(driver, times, names, |solver, balance| {
+            let deflection: f64 =
+                weights.iter().map(|(i, w, y)| w * (solver.particle(*i).position[1] - y)).sum();
+            [
+                solver.time(),
+                deflection / mass,
+                modes::energies(solver).hourglass / balance.initial.kinetic,
+                balance.now.energy() / balance.initial.energy(),
+                balance.now.internal / balance.initial.kinetic,
+            ]
+        })?;
         let step = FITTED as f64 * scene.stop_time / entries as f64;
         let fitted: Vec<f64> =
             history.column("deflection").iter().copied().step_by(FITTED).collect();
         let (frequency, decay) = oscillation(&fitted, step);
         let wanted = beam.timoshenko_free(1)?;
         let mut findings = Findings::default();
-        let mut enter = |name: &str, value: f64| findings.norms.insert(name.into(), value);
         // Cycles a microsecond in thousands a second.
-        enter("frequency_khz", 1e3 * frequency);
-        enter("frequency_error", frequency / wanted - 1.0);
-        enter(
+        findings.enter("frequency_khz", 1e3 * frequency);
+        findings.enter("frequency_error", frequency / wanted - 1.0);
+        findings.enter(
             "over_euler_bernoulli",
             frequency / beam.euler_bernoulli(Support::FreeFree, 1)? - 1.0,
         );
-        enter("decay", decay / wanted);
-        enter("hourglass", history.column("hourglass").iter().copied().fold(0.0, f64::max));
+        findings.enter("decay", decay / wanted);
+        findings
+            .enter("hourglass", history.column("hourglass").iter().copied().fold(0.0, f64::max));
         findings.history = Some(history.series());
         Ok(findings)
     }
@@ -174,14 +168,14 @@ impl Case for Beam {
     }
 
     fn runs(&self, level: Level) -> Vec<RunKey> {
-        let mut keys = vec![key(Preset::Default, SIZES[0]), key(Preset::Default, SIZES[1])];
+        let mut keys = vec![default_run(ID, SIZES[0]), default_run(ID, SIZES[1])];
         if level >= Level::Standard {
-            keys.push(key(Preset::Paper, SIZES[1]));
-            keys.extend(control::runs(&key(Preset::Default, SIZES[1])));
+            keys.push(paper_run(ID, SIZES[1]));
+            keys.extend(control::runs(&default_run(ID, SIZES[1])));
         }
         if level == Level::Full {
-            keys.push(key(Preset::Default, SIZES[2]));
-            keys.extend(control::runs(&key(Preset::Default, SIZES[2])));
+            keys.push(default_run(ID, SIZES[2]));
+            keys.extend(control::runs(&default_run(ID, SIZES[2])));
         }
         keys
     }
@@ -190,16 +184,16 @@ impl Case for Beam {
         let source = "Timoshenko; 5 % at 4 cells by `references/verification_problems.toml`";
         let must = Claims::new(ID, Kind::Verification, Weight::Must, source);
         let aim = Claims { weight: Weight::Aim, ..must };
-        let error = |n| Quantity::Norm(key(Preset::Default, n), "frequency_error");
+        let error = |n| Quantity::Norm(default_run(ID, n), "frequency_error");
         let mut out = vec![
             must.claim("frequency, 4 cells, error", error(SIZES[1]), Wanted::WithinZero(0.05)),
             aim.claim("frequency, 8 cells, error", error(SIZES[2]), Wanted::WithinZero(0.01)),
         ];
         for n in [SIZES[1], SIZES[2]] {
             let answers = [("frequency_khz", "frequency")];
-            out.extend(control::claims(ID, &key(Preset::Default, n), &answers));
+            out.extend(control::claims(ID, &default_run(ID, n), &answers));
         }
-        out.extend(super::conservation_in_space(ID, &key(Preset::Default, SIZES[1])));
+        out.extend(super::conservation_in_space(ID, &default_run(ID, SIZES[1])));
         out
     }
 
@@ -221,26 +215,19 @@ impl Case for Beam {
         let Ok(frequency) = exact().and_then(|beam| Ok(beam.timoshenko_free(1)?)) else {
             return Vec::new();
         };
-        let mut panel =
-            Panel::new("", Axis::linear("time × exact frequency"), Axis::linear("deflection, µm"));
-        let defaults = SIZES.map(|n| (format!("default, n = {n}"), key(Preset::Default, n)));
-        let paper = [("paper, n = 4".to_owned(), key(Preset::Paper, SIZES[1]))];
-        for (name, key) in defaults.into_iter().chain(paper) {
-            let Some(history) = records.get(&key).and_then(|r| r.history.as_ref()) else {
-                continue;
-            };
-            let points = history.points("time", "deflection");
-            let points = points.into_iter().map(|p| (p.0 * frequency, 1e4 * p.1)).collect();
-            panel = panel.with(Curve::line(name, points));
-        }
-        if panel.layers.is_empty() {
-            return Vec::new();
-        }
-        for cycle in [0.5, 1.0] {
-            panel = panel.with(Layer::vertical(cycle, ""));
-        }
+        let defaults = SIZES.map(|n| (format!("default, n = {n}"), default_run(ID, n)));
+        let paper = [("paper, n = 4".to_owned(), paper_run(ID, SIZES[1]))];
+        let runs = histories(records, defaults.into_iter().chain(paper));
+        let scaled = over(&runs, "time", "deflection").map(|(name, points)| {
+            (name, points.into_iter().map(|p| (p.0 * frequency, 1e4 * p.1)).collect())
+        });
+        let axes = (Axis::linear("time × exact frequency"), Axis::linear("deflection, µm"));
+        let panel = curves(Panel::new("", axes.0, axes.1), scaled);
+        let panel = panel.map(|panel| {
+            [0.5, 1.0].into_iter().fold(panel, |panel, at| panel.with(Layer::vertical(at, "")))
+        });
         let caption = "Deflection of the beam, projected on the shape of its first mode; it should \
                        vanish at the upright lines.";
-        vec![Figure::new("beam-deflection", caption, vec![panel])]
+        figure("beam-deflection", caption, panel)
     }
 }

@@ -6,12 +6,14 @@ use whipple_solver::scene::{
 };
 use whipple_solver::units::Units;
 
+use super::figures::histories;
 use super::{
     Case, Claim, Claims, Kind, Level, Quantity, Wanted, Weight, both_presets, conservation,
+    default_run, run_of,
 };
 use crate::exact::collision::{Block, collide};
 use crate::plots::{Axis, Figure, Layer, Panel, Series as Curve};
-use crate::record::{Records, RunKey, Scheme, Series};
+use crate::record::{Records, RunKey, Series};
 use crate::run::{Driver, Findings, RunError};
 use crate::scene::AnyScene;
 
@@ -120,11 +122,10 @@ impl Case for BlockCollision {
         let s = driver.solver().snapshot();
         let (a, b) = (mean(&|i| s.v[i], 0..first), mean(&|i| s.v[i], first..key.n));
         let mut findings = Findings::default();
-        let mut enter = |name: &str, value| findings.norms.insert(name.into(), value);
-        enter("left_velocity_error", (a - exact.left_velocity / speed).abs());
-        enter("right_velocity_error", (b - exact.right_velocity / speed).abs());
-        enter("left_as_vibration_and_heat", 1.0 - a * a - b * b);
-        enter("separation", (s.x[first] - s.x[first - 1]) / (LENGTH / first as f64) - 1.0);
+        findings.enter("left_velocity_error", (a - exact.left_velocity / speed).abs());
+        findings.enter("right_velocity_error", (b - exact.right_velocity / speed).abs());
+        findings.enter("left_as_vibration_and_heat", 1.0 - a * a - b * b);
+        findings.enter("separation", (s.x[first] - s.x[first - 1]) / (LENGTH / first as f64) - 1.0);
         let mut series = Series::default();
         series.0.insert("time".into(), time);
         series.0.insert("left".into(), left);
@@ -144,7 +145,7 @@ impl Case for BlockCollision {
         let study =
             "1D study, section 5: at most 5.7 % with c_o = 1, 1.8 % with the limited viscosity";
         let must = Claims::new(ID, Kind::Verification, Weight::Must, study);
-        let key = RunKey::new(ID, Scheme::preset(Preset::Default), 200);
+        let key = default_run(ID, 200);
         let norm = |name| Quantity::Norm(key.clone(), name);
         let mut out = vec![
             must.claim(
@@ -179,13 +180,10 @@ impl Case for BlockCollision {
     fn figures(&self, records: &Records) -> Vec<Figure> {
         let axes = (Axis::linear("time, µs"), Axis::linear("mean velocity of a block / V"));
         let mut panel = Panel::new("", axes.0, axes.1);
-        for preset in Preset::ALL {
-            let key = RunKey::new(ID, Scheme::preset(preset), self.default_size());
-            let Some(history) = records.get(&key).and_then(|r| r.history.as_ref()) else {
-                continue;
-            };
+        let runs = Preset::ALL.map(|p| (p.name(), run_of(ID, p, self.default_size())));
+        for (preset, history) in histories(records, runs) {
             for (column, which) in [("left", "first"), ("right", "second")] {
-                let name = format!("{which}, {}", preset.name());
+                let name = format!("{which}, {preset}");
                 panel = panel.with(Curve::line(name, history.points("time", column)));
             }
         }

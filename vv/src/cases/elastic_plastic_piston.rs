@@ -2,21 +2,24 @@
 
 use whipple_solver::method::Preset;
 use whipple_solver::space::method::{Method, YieldNorm};
-use whipple_solver::space::scene::{
-    Body, EosData, Failure, Flow, GammaLaw, Material, Scene, Shape, Side, Strength,
-};
+use whipple_solver::space::scene::{EosData, Failure, Flow, GammaLaw, Material, Scene, Strength};
 use whipple_solver::units::Units;
 
+use super::figures::{beside_exact, figure, profiles};
+use super::parts::column::Column;
 use super::parts::fit::slope;
 use super::parts::planes::{Plane, Planes, front, mean};
-use super::parts::{Columns, mirror, resting, sleeve};
-use super::{Case, Claim, Claims, Kind, Level, Quantity, Wanted, Weight};
+use super::parts::{Columns, late_times};
+use super::{
+    Case, Claim, Claims, Kind, Level, Quantity, Wanted, Weight, default_run, named, paper_run,
+    run_of,
+};
 use crate::exact::gruneisen::MieGruneisen;
 use crate::exact::hugoniot::Hugoniot;
 use crate::exact::piston::{Piston, PistonState, Structure};
 use crate::exact::strength::{Elasticity, Strength as Law, YieldReading};
-use crate::plots::{Axis, Figure, Layer, Panel, Series as Curve};
-use crate::record::{Records, RunKey, Scheme};
+use crate::plots::{Axis, Figure, Panel};
+use crate::record::{Records, RunKey};
 use crate::run::{Findings, RunError, SpaceDriver};
 use crate::scene::AnyScene;
 
@@ -93,10 +96,6 @@ fn lost(plane: &Plane) -> f64 {
     plane.velocity + SPEED
 }
 
-fn default_key(variant: &str, n: usize) -> RunKey {
-    RunKey::new(ID, Scheme::preset(Preset::Default), n).variant(variant)
-}
-
 impl Case for ElasticPlasticPiston {
     fn id(&self) -> &'static str {
         ID
@@ -132,9 +131,7 @@ impl Case for ElasticPlasticPiston {
     }
 
     fn scene(&self, preset: Preset, variant: &str, n: usize) -> AnyScene {
-        let width = ACROSS as f64 * LENGTH / n as f64;
-        let mut walls = sleeve(width);
-        walls.push(mirror(0, 0.0, Side::Above));
+        let column = Column { length: LENGTH, cells: n, across: ACROSS };
         let [density, c0, s, gamma_0] = SOLID;
         let law = GammaLaw::Steinberg(gamma_0);
         // Neither hardens nor softens.
@@ -153,12 +150,6 @@ impl Case for ElasticPlasticPiston {
             strength: Some(Strength { shear_modulus: SHEAR, flow: Some(flow) }),
             failure: Failure::default(),
         };
-        let shape = Shape::Box { size: [LENGTH, width, width] };
-        let centre = [0.5 * LENGTH, 0.0, 0.0];
-        let column = Body {
-            velocity: [-SPEED, 0.0, 0.0],
-            ..resting(&metal.name, shape, [n, ACROSS, ACROSS], centre)
-        };
         // Only constants of this file come here; a test builds every scene.
         let fastest = Exact::of(variant).map_or(1.0, |exact| exact.speeds[0]);
         Scene {
@@ -166,9 +157,9 @@ impl Case for ElasticPlasticPiston {
             units: Units::CmGUsMbar,
             stop_time: RUN * LENGTH / fastest,
             method: Method { yield_norm: reading(variant).0, ..preset.space() },
-            walls,
+            walls: column.walls(),
+            bodies: vec![column.body(&metal.name, 0.5 * LENGTH, -SPEED)],
             materials: vec![metal],
-            bodies: vec![column],
         }
         .into()
     }
@@ -185,8 +176,8 @@ impl Case for ElasticPlasticPiston {
         let levels = [0.5 * first, 0.5 * (first + second)];
         let mut seen = [Vec::new(), Vec::new()];
         let mut pushed = Vec::new();
-        for k in 0..=LOOKS {
-            driver.advance_to(scene.stop_time * (0.5 + 0.5 * k as f64 / LOOKS as f64))?;
+        for time in late_times(scene.stop_time, LOOKS) {
+            driver.advance_to(time)?;
             let now = driver.look(|solver, balance| {
                 let layers = planes.look(solver);
                 let places = levels.map(|level| front(&layers, lost, level).unwrap_or(f64::NAN));
@@ -206,26 +197,25 @@ impl Case for ElasticPlasticPiston {
         let gap = ahead - behind;
         let level = mean(&layers, lost, [behind + 0.3 * gap, behind + 0.7 * gap]);
         let plateau = [0.2 * behind, 0.8 * behind];
-        let width = ACROSS as f64 * LENGTH / key.n as f64;
+        let width = Column { length: LENGTH, cells: key.n, across: ACROSS }.width();
         let stress = slope(&pushed) / (width * width);
 
         let mut findings = Findings::default();
-        let mut enter = |name: &str, value: f64| findings.norms.insert(name.into(), value);
         let [elastic, plastic] = seen.each_ref().map(|s| slope(s));
-        enter("precursor_speed", KM_S * elastic);
-        enter("precursor_speed_error", elastic / exact.speeds[0] - 1.0);
-        enter("plastic_speed", KM_S * plastic);
-        enter("plastic_speed_error", plastic / exact.speeds[1] - 1.0);
+        findings.enter("precursor_speed", KM_S * elastic);
+        findings.enter("precursor_speed_error", elastic / exact.speeds[0] - 1.0);
+        findings.enter("plastic_speed", KM_S * plastic);
+        findings.enter("plastic_speed_error", plastic / exact.speeds[1] - 1.0);
         // 10 000 m/s are a cm/us.
-        enter("precursor_m_s", 1e4 * level);
-        enter("precursor_error", level / first - 1.0);
+        findings.enter("precursor_m_s", 1e4 * level);
+        findings.enter("precursor_error", level / first - 1.0);
         let density = mean(&layers, |l| l.density, plateau);
-        enter("density_error", density / exact.driven.density - 1.0);
+        findings.enter("density_error", density / exact.driven.density - 1.0);
         let pressure = mean(&layers, |l| l.pressure, plateau);
-        enter("pressure_error", pressure / exact.driven.pressure - 1.0);
-        enter("stress_error", stress / exact.driven.stress - 1.0);
+        findings.enter("pressure_error", pressure / exact.driven.pressure - 1.0);
+        findings.enter("stress_error", stress / exact.driven.stress - 1.0);
         let misfit = |l: &Plane| (lost(l) - exact.lost(l.place, time)).abs() / SPEED;
-        enter("velocity_l1", layers.iter().map(misfit).sum::<f64>() / layers.len() as f64);
+        findings.enter("velocity_l1", layers.iter().map(misfit).sum::<f64>() / layers.len() as f64);
         let mut profile = Columns::default();
         for l in &layers {
             profile.row([
@@ -239,11 +229,11 @@ impl Case for ElasticPlasticPiston {
     }
 
     fn runs(&self, level: Level) -> Vec<RunKey> {
-        let mut keys = vec![default_key("", SIZES[0]), default_key("", SIZES[1])];
-        keys.extend(VARIANTS.map(|v| default_key(v, SIZES[2])));
+        let mut keys = vec![default_run(ID, SIZES[0]), default_run(ID, SIZES[1])];
+        keys.extend(VARIANTS.map(|v| default_run(ID, SIZES[2]).variant(v)));
         if level >= Level::Standard {
-            keys.push(default_key("", SIZES[3]));
-            keys.push(RunKey::new(ID, Scheme::preset(Preset::Paper), SIZES[2]));
+            keys.push(default_run(ID, SIZES[3]));
+            keys.push(paper_run(ID, SIZES[2]));
         }
         keys
     }
@@ -253,8 +243,8 @@ impl Case for ElasticPlasticPiston {
         let must = Claims::new(ID, Kind::Verification, Weight::Must, source);
         let mut out = Vec::new();
         for variant in VARIANTS {
-            let name = if variant.is_empty() { "mises" } else { variant };
-            let key = default_key(variant, SIZES[2]);
+            let name = named(variant, "mises");
+            let key = default_run(ID, SIZES[2]).variant(variant);
             for (norm, text) in [
                 ("precursor_speed_error", "speed of the precursor, error"),
                 ("precursor_error", "velocity behind the precursor, error"),
@@ -273,13 +263,13 @@ impl Case for ElasticPlasticPiston {
         let source =
             "a linear wave under a viscosity of first order: width goes with the root of the cell";
         let order = Claims { source, ..must };
-        let keys = SIZES.map(|n| default_key("", n));
+        let keys = SIZES.map(|n| default_run(ID, n));
         out.push(order.claim(
             "order of the L1 error of the velocity, mises",
             Quantity::Order(keys.to_vec(), "velocity_l1"),
             Wanted::Around(0.5, 0.25),
         ));
-        out.extend(super::conservation_in_space(ID, &default_key("", SIZES[2])));
+        out.extend(super::conservation_in_space(ID, &default_run(ID, SIZES[2])));
         out
     }
 
@@ -296,31 +286,17 @@ impl Case for ElasticPlasticPiston {
     }
 
     fn figures(&self, records: &Records) -> Vec<Figure> {
-        let panels: Vec<Panel> = VARIANTS
-            .iter()
-            .filter_map(|variant| {
-                let title = if variant.is_empty() { "mises" } else { variant };
-                let axes = (
-                    Axis::linear("place in the undeformed column, cm"),
-                    Axis::linear("velocity lost, m/s"),
-                );
-                let mut panel = Panel::new(title, axes.0, axes.1);
-                let record = records.get(&default_key(variant, SIZES[2]));
-                let profile = record.and_then(|r| r.profile.as_ref())?;
-                panel = panel.with(Curve::line("default", profile.points("place", "velocity")));
-                let paper = RunKey::new(ID, Scheme::preset(Preset::Paper), SIZES[2]);
-                let paper = records.get(&paper.variant(variant));
-                if let Some(profile) = paper.and_then(|r| r.profile.as_ref()) {
-                    panel = panel.with(Curve::line("paper", profile.points("place", "velocity")));
-                }
-                Some(panel.with(Layer::exact("exact", profile.points("place", "exact"))))
-            })
-            .collect();
-        if panels.is_empty() {
-            return Vec::new();
-        }
+        let panels = VARIANTS.iter().filter_map(|variant| {
+            let [place, lost] =
+                ["place in the undeformed column, cm", "velocity lost, m/s"].map(Axis::linear);
+            let runs = [Preset::Default, Preset::Paper]
+                .map(|preset| (preset.name(), run_of(ID, preset, SIZES[2]).variant(variant)));
+            let runs = profiles(records, runs);
+            let panel = Panel::new(named(variant, "mises"), place, lost);
+            beside_exact(panel, &runs, ["place", "velocity", "exact"], "exact")
+        });
         let caption = "Velocity that the column has lost, with the yield stress read in three ways, at \
                        the end of the run, 160 cells.";
-        vec![Figure::new("elastic-plastic-piston-profiles", caption, panels)]
+        figure("elastic-plastic-piston-profiles", caption, panels)
     }
 }

@@ -1,18 +1,19 @@
 //! A shock that meets a free surface.
 
 use whipple_solver::method::Preset;
-use whipple_solver::space::Simulation;
-use whipple_solver::space::scene::{Body, Scene, Shape, Side};
+use whipple_solver::space::scene::Scene;
 use whipple_solver::units::Units;
 
+use super::figures::{curves, figure, histories, over};
+use super::parts::column::{Column, Face};
 use super::parts::metals::{ALUMINIUM, COPPER, Metal};
 use super::parts::planes::{Planes, mean};
-use super::parts::{Columns, mirror, moments, resting, sleeve};
-use super::{Case, Claim, Claims, Kind, Level, Quantity, Wanted, Weight};
+use super::parts::{history, moments, times};
+use super::{Case, Claim, Claims, Kind, Level, Quantity, Wanted, Weight, default_run, paper_run};
 use crate::exact::hugoniot::ShockState;
 use crate::exact::release::Released;
-use crate::plots::{Axis, Figure, Layer, Panel, Series as Curve};
-use crate::record::{Records, RunKey, Scheme};
+use crate::plots::{Axis, Figure, Layer, Panel};
+use crate::record::{Records, RunKey, Series};
 use crate::run::{Findings, RunError, SpaceDriver};
 use crate::scene::AnyScene;
 
@@ -53,17 +54,6 @@ fn title(variant: &str) -> String {
     format!("{}, {} km/s", metal.name, 20.0 * speed)
 }
 
-fn default_key(variant: &str, n: usize) -> RunKey {
-    RunKey::new(ID, Scheme::preset(Preset::Default), n).variant(variant)
-}
-
-/// The nodes of the free end.
-fn surface(simulation: &Simulation) -> Vec<u32> {
-    let end = simulation.all_particles().map(|p| p.position[0]).fold(f64::NEG_INFINITY, f64::max);
-    let on = |x: f64| (x - end).abs() < 1e-6 * LENGTH;
-    simulation.all_particles().filter(|p| on(p.position[0])).map(|p| p.id).collect()
-}
-
 impl Case for FreeSurface {
     fn id(&self) -> &'static str {
         ID
@@ -96,14 +86,7 @@ impl Case for FreeSurface {
 
     fn scene(&self, preset: Preset, variant: &str, n: usize) -> AnyScene {
         let (metal, speed) = shot(variant);
-        let width = ACROSS as f64 * LENGTH / n as f64;
-        let mut walls = sleeve(width);
-        walls.push(mirror(0, 0.0, Side::Above));
-        let shape = Shape::Box { size: [LENGTH, width, width] };
-        let column = Body {
-            velocity: [-speed, 0.0, 0.0],
-            ..resting(metal.name, shape, [n, ACROSS, ACROSS], [0.5 * LENGTH, 0.0, 0.0])
-        };
+        let column = Column { length: LENGTH, cells: n, across: ACROSS };
         // Only constants of this file come here; a test builds every scene.
         let shock = exact(variant).map_or(1.0, |(state, _)| state.shock_speed);
         Scene {
@@ -111,9 +94,9 @@ impl Case for FreeSurface {
             units: Units::CmGUsMbar,
             stop_time: AFTER * LENGTH / shock,
             method: preset.space(),
-            walls,
+            walls: column.walls(),
             materials: vec![metal.material()],
-            bodies: vec![column],
+            bodies: vec![column.body(metal.name, 0.5 * LENGTH, -speed)],
         }
         .into()
     }
@@ -126,20 +109,14 @@ impl Case for FreeSurface {
     ) -> Result<Findings, RunError> {
         let (_, speed) = shot(&key.variant);
         let (state, released) = exact(&key.variant)?;
-        let end = surface(driver.solver());
+        let end = Face::at(driver.solver(), LENGTH);
         let planes = Planes::new(driver.solver(), 0, LENGTH);
         let breakout = LENGTH / state.shock_speed;
-        let mut history = Columns::default();
-        for k in 0..=ENTRIES {
-            driver.advance_to(scene.stop_time * k as f64 / ENTRIES as f64)?;
-            let now = driver.look(|solver, _| {
-                let velocities: Vec<f64> =
-                    end.iter().map(|&i| solver.particle(i).velocity[0] + speed).collect();
-                let exact = if solver.time() < breakout { 0.0 } else { 1.0 };
-                vec![solver.time() / breakout, moments(&velocities).0 / released.velocity, exact]
-            })?;
-            history.read(&["time", "velocity", "exact"], &now);
-        }
+        let names = ["time", "velocity", "exact"];
+        let history = history(driver, times(scene.stop_time, ENTRIES), names, |solver, _| {
+            let exact = if solver.time() < breakout { 0.0 } else { 1.0 };
+            [solver.time() / breakout, end.velocity(solver, speed) / released.velocity, exact]
+        })?;
         let (times, velocities) = (history.column("time"), history.column("velocity"));
         let all = || times.iter().zip(velocities);
         let late: Vec<f64> =
@@ -153,23 +130,22 @@ impl Case for FreeSurface {
         let reached = 0.25 * (AFTER - 1.0) * LENGTH;
         let density = mean(&layers, |l| l.density, [margin.min(0.5 * reached), reached]);
         let mut findings = Findings::default();
-        let mut enter = |name: &str, value: f64| findings.norms.insert(name.into(), value);
-        enter("velocity_error", level - 1.0);
-        enter("over_up", level * released.velocity / speed);
-        enter("exact_over_up", released.velocity / speed);
-        enter("ringing", ringing);
-        enter("peak", peak);
-        enter("breakout_error", arrival - 1.0);
-        enter("density_error", density / released.density - 1.0);
+        findings.enter("velocity_error", level - 1.0);
+        findings.enter("over_up", level * released.velocity / speed);
+        findings.enter("exact_over_up", released.velocity / speed);
+        findings.enter("ringing", ringing);
+        findings.enter("peak", peak);
+        findings.enter("breakout_error", arrival - 1.0);
+        findings.enter("density_error", density / released.density - 1.0);
         findings.history = Some(history.series());
         Ok(findings)
     }
 
     fn runs(&self, level: Level) -> Vec<RunKey> {
-        let mut keys: Vec<RunKey> = VARIANTS.map(|v| default_key(v, SIZES[1])).into();
+        let mut keys: Vec<RunKey> = VARIANTS.map(|v| default_run(ID, SIZES[1]).variant(v)).into();
         if level >= Level::Standard {
-            keys.extend([SIZES[0], SIZES[2]].map(|n| default_key("", n)));
-            keys.push(RunKey::new(ID, Scheme::preset(Preset::Paper), SIZES[1]));
+            keys.extend([SIZES[0], SIZES[2]].map(|n| default_run(ID, n)));
+            keys.push(paper_run(ID, SIZES[1]));
         }
         keys
     }
@@ -180,7 +156,7 @@ impl Case for FreeSurface {
         let aim = Claims { weight: Weight::Aim, source: "issue", ..must };
         let mut out = Vec::new();
         for variant in VARIANTS {
-            let norm = |name| Quantity::Norm(default_key(variant, SIZES[1]), name);
+            let norm = |name| Quantity::Norm(default_run(ID, SIZES[1]).variant(variant), name);
             let name = title(variant);
             out.push(must.claim(
                 format!("{name}: velocity of the free surface, error"),
@@ -198,7 +174,7 @@ impl Case for FreeSurface {
                 Wanted::AtMost(1.05),
             ));
         }
-        out.extend(super::conservation_in_space(ID, &default_key("", SIZES[1])));
+        out.extend(super::conservation_in_space(ID, &default_run(ID, SIZES[1])));
         out
     }
 
@@ -215,40 +191,23 @@ impl Case for FreeSurface {
     }
 
     fn figures(&self, records: &Records) -> Vec<Figure> {
-        let axes =
-            || (Axis::linear("time / breakout").range(0.9, 1.5), Axis::linear("velocity / exact"));
-        let mut by_speed = Panel::new("", axes().0, axes().1);
-        let mut by_size = Panel::new("", axes().0, axes().1);
-        let mut any = false;
-        let points = |key: &RunKey| {
-            let history = records.get(key)?.history.as_ref()?;
-            Some(history.points("time", "velocity"))
+        let panel = |runs: &[(String, &Series)]| {
+            let axes = ["time / breakout", "velocity / exact"].map(Axis::linear);
+            let [time, velocity] = axes;
+            let panel = Panel::new("", time.range(0.9, 1.5), velocity);
+            let panel = curves(panel, over(runs, "time", "velocity"))?;
+            Some(panel.with(Layer::horizontal(1.0, "release isentrope")))
         };
-        for variant in VARIANTS {
-            if let Some(points) = points(&default_key(variant, SIZES[1])) {
-                any = true;
-                by_speed = by_speed.with(Curve::line(title(variant), points));
-            }
-        }
-        for n in SIZES {
-            if let Some(points) = points(&default_key("", n)) {
-                by_size = by_size.with(Curve::line(format!("{n} cells"), points));
-            }
-        }
-        let paper = RunKey::new(ID, Scheme::preset(Preset::Paper), SIZES[1]);
-        if let Some(points) = points(&paper) {
-            by_size = by_size.with(Curve::line("paper, 80 cells", points));
-        }
-        if !any {
-            return Vec::new();
-        }
-        let line = || Layer::horizontal(1.0, "release isentrope");
-        let figure = |id: &str, caption: &str, panel: Panel| {
-            Figure::new(format!("free-surface-{id}"), caption, vec![panel.with(line())])
-        };
-        let speeds = "Velocity of the free surface over that of the release isentrope, 80 cells.";
-        let sizes = "The same for copper at 1 km/s, by the number of cells.";
-        vec![figure("speeds", speeds, by_speed), figure("sizes", sizes, by_size)]
+        let speeds = VARIANTS.map(|v| (title(v), default_run(ID, SIZES[1]).variant(v)));
+        let sizes = SIZES.map(|n| (format!("{n} cells"), default_run(ID, n)));
+        let paper = ("paper, 80 cells".to_owned(), paper_run(ID, SIZES[1]));
+        let speeds = panel(&histories(records, speeds));
+        let sizes = panel(&histories(records, sizes.into_iter().chain([paper])));
+        let caption = "Velocity of the free surface over that of the release isentrope, 80 cells.";
+        let mut figures = figure("free-surface-speeds", caption, speeds);
+        let caption = "The same for copper at 1 km/s, by the number of cells.";
+        figures.extend(figure("free-surface-sizes", caption, sizes));
+        figures
     }
 
     fn draws(&self, _: &RunKey) -> bool {

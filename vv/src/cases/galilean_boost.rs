@@ -6,9 +6,10 @@ use whipple_solver::scene::Scene;
 use super::two_stream_noh::streams;
 use super::{
     Case, Claim, Claims, Kind, Level, Quantity, Wanted, Weight, both_presets, conservation,
+    default_run, paper_run,
 };
 use crate::plots::Figure;
-use crate::record::{Records, RunKey, Scheme};
+use crate::record::{Records, RunKey};
 use crate::run::{Driver, Findings, RunError};
 use crate::scene::AnyScene;
 
@@ -87,10 +88,9 @@ impl Case for GalileanBoost {
             a.iter().zip(b).fold(0.0_f64, |worst, (a, b)| worst.max((a - shift - b).abs()))
         };
         let mut findings = Findings::default();
-        let mut enter = |name: &str, value| findings.norms.insert(name.into(), value);
-        enter("temperature_difference", apart(&moving.theta, &still.theta, 0.0));
-        enter("velocity_difference", apart(&moving.v, &still.v, boost));
-        enter("position_difference", apart(&moving.x, &still.x, travelled));
+        findings.enter("temperature_difference", apart(&moving.theta, &still.theta, 0.0));
+        findings.enter("velocity_difference", apart(&moving.v, &still.v, boost));
+        findings.enter("position_difference", apart(&moving.x, &still.x, travelled));
         Ok(findings)
     }
 
@@ -102,7 +102,7 @@ impl Case for GalileanBoost {
     fn claims(&self) -> Vec<Claim> {
         let issue = "issue: equal to 1e-8, which round-off of positions 300 away allows";
         let must = Claims::new(ID, Kind::Verification, Weight::Must, issue);
-        let key = RunKey::new(ID, Scheme::preset(Preset::Default), SIZE);
+        let key = default_run(ID, SIZE);
         let mut out = vec![must.claim(
             "temperatures in a frame at 1000, largest difference, `default`",
             Quantity::Norm(key.clone(), "temperature_difference"),
@@ -111,7 +111,7 @@ impl Case for GalileanBoost {
         let limit = "printed heating (60) depends on the frame";
         let shown = Claims::new(ID, Kind::Stability, Weight::Shown, limit);
         for variant in self.variants() {
-            let key = RunKey::new(ID, Scheme::preset(Preset::Paper), SIZE).variant(variant);
+            let key = paper_run(ID, SIZE).variant(variant);
             out.push(shown.claim(
                 format!("temperatures in a frame at {}, `paper`", boost(variant)),
                 Quantity::Norm(key, "temperature_difference"),

@@ -7,8 +7,11 @@ use whipple_solver::scene::{
 };
 use whipple_solver::units::Units;
 
-use super::{Case, Claim, Eulerian, Level};
+use super::{
+    Case, Claim, Claims, Eulerian, Kind, Level, Quantity, Wanted, Weight, conservation, default_run,
+};
 use crate::exact::Gas;
+use crate::exact::riemann::Riemann;
 use crate::godunov::{self, Domain, Godunov};
 use crate::norms;
 use crate::plots::{Axis, Figure, Layer, Panel, Series as Curve};
@@ -36,6 +39,9 @@ pub(super) struct Region {
     pub share: f64,
 }
 
+/// Exact state at a position and time.
+pub(super) type ExactState = Box<dyn Fn(f64, f64) -> Result<Gas, RunError> + Sync>;
+
 /// A problem, for one variant.
 pub(super) struct Setup {
     /// Regions from left to right, joined.
@@ -48,7 +54,7 @@ pub(super) struct Setup {
     /// End time.
     pub time: f64,
     /// Exact state at a position and time.
-    pub exact: Box<dyn Fn(f64, f64) -> Result<Gas, RunError> + Sync>,
+    pub exact: ExactState,
 }
 
 /// Numbers of particles.
@@ -88,7 +94,7 @@ pub(super) const L1_NORMS: &[(&str, &str)] = &[
 ];
 
 /// Both sides of a membrane, with equal particle spacing over the whole.
-pub(super) fn two_regions(left: (f64, Gas), membrane: f64, right: (f64, Gas)) -> Vec<Region> {
+fn two_regions(left: (f64, Gas), membrane: f64, right: (f64, Gas)) -> Vec<Region> {
     let length = right.0 - left.0;
     let region = |span: (f64, f64), gas| Region {
         span,
@@ -104,7 +110,56 @@ pub(super) fn walls(from: f64, to: f64) -> Boundaries {
     Boundaries { left: Boundary::Mirror(from), right: Boundary::Mirror(to) }
 }
 
+/// Sizes of a problem of the 1D study.
+pub(super) const STUDIED: &[usize] = &[100, 200, 400];
+
+/// Its claims: the L1 error of the density that the study reached at n = 200, and the order.
+pub(super) fn studied(id: &'static str, bound: f64) -> Vec<Claim> {
+    let study = "1D study, section 5: its best prototype at n = 200";
+    let aim = Claims::new(id, Kind::Verification, Weight::Aim, study);
+    let key = default_run(id, 200);
+    let order = Claims { source: "first order in L1", weight: Weight::Must, ..aim };
+    let keys = STUDIED.iter().map(|&n| default_run(id, n)).collect();
+    let mut out = vec![
+        aim.claim(
+            "L1 ρ, n = 200, `default`",
+            Quantity::Norm(key.clone(), "density_l1"),
+            Wanted::AtMost(bound),
+        ),
+        order.claim(
+            "order of L1 ρ, `default`",
+            Quantity::Order(keys, "density_l1"),
+            Wanted::AtLeast(0.8),
+        ),
+    ];
+    out.extend(conservation(id, &key));
+    out
+}
+
+/// The waves of a membrane that breaks at a place.
+pub(super) fn membrane(left: Gas, place: f64, right: Gas) -> Result<ExactState, RunError> {
+    let riemann = Riemann::new(left, right)?;
+    Ok(Box::new(move |x, t| Ok(riemann.sample((x - place) / t).gas)))
+}
+
 impl Setup {
+    /// Gases at rest or in motion on both sides of a membrane that breaks, between walls, until a
+    /// time.
+    pub(super) fn tube(
+        left: (f64, Gas),
+        place: f64,
+        right: (f64, Gas),
+        time: f64,
+    ) -> Result<Self, RunError> {
+        Ok(Self {
+            regions: two_regions(left, place, right),
+            ends: walls(left.0, right.0),
+            u_0: 0.0,
+            time,
+            exact: membrane(left.1, place, right.1)?,
+        })
+    }
+
     /// The scene of the problem with `n` particles.
     pub(super) fn scene(&self, name: &str, preset: Preset, n: usize) -> Scene {
         let mut scene = Scene {

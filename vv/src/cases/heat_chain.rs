@@ -6,12 +6,14 @@ use whipple_solver::scene::{
 };
 use whipple_solver::units::Units;
 
+use super::figures::{over, profiles};
 use super::{
     Case, Claim, Claims, Kind, Level, Quantity, Wanted, Weight, both_presets, conservation,
+    default_run, run_of,
 };
 use crate::exact::heat::CosineMode;
 use crate::plots::{Axis, Figure, Layer, Panel, Series as Curve};
-use crate::record::{Records, RunKey, Scheme, Series};
+use crate::record::{Records, RunKey, Series};
 use crate::run::{Driver, Findings, RunError};
 use crate::scene::AnyScene;
 
@@ -107,10 +109,9 @@ impl Case for HeatChain {
         let fastest = s.v.iter().fold(0.0_f64, |top, v| top.max(v.abs()));
 
         let mut findings = Findings::default();
-        let mut enter = |name: &str, value| findings.norms.insert(name.into(), value);
-        enter("rate_error", (rate / mode.discrete_rate() - 1.0).abs());
-        enter("temperature_linf", worst / AMPLITUDE);
-        enter("speed_linf", fastest);
+        findings.enter("rate_error", (rate / mode.discrete_rate() - 1.0).abs());
+        findings.enter("temperature_linf", worst / AMPLITUDE);
+        findings.enter("speed_linf", fastest);
         let mut series = Series::default();
         series.0.insert("x".into(), s.x.clone());
         series.0.insert("temperature".into(), s.theta.clone());
@@ -133,11 +134,11 @@ impl Case for HeatChain {
                     "rate of decay of mode {MODE}, relative error, n = 32, `{}`",
                     preset.name()
                 ),
-                Quantity::Norm(RunKey::new(ID, Scheme::preset(preset), 32), "rate_error"),
+                Quantity::Norm(run_of(ID, preset, 32), "rate_error"),
                 Wanted::AtMost(1e-4),
             ));
         }
-        let key = RunKey::new(ID, Scheme::preset(Preset::Default), 32);
+        let key = default_run(ID, 32);
         out.extend(conservation(ID, &key).into_iter().take(1));
         out
     }
@@ -152,16 +153,14 @@ impl Case for HeatChain {
 
     fn figures(&self, records: &Records) -> Vec<Figure> {
         let mut panel = Panel::new("", Axis::linear("x"), Axis::linear("temperature"));
-        for preset in Preset::ALL {
-            let key = RunKey::new(ID, Scheme::preset(preset), self.default_size());
-            let Some(profile) = records.get(&key).and_then(|r| r.profile.as_ref()) else {
-                continue;
-            };
-            if preset == Preset::Paper {
-                let exact = profile.points("x", "temperature_exact");
-                panel = panel.with(Layer::exact("exact, chain", exact));
-            }
-            panel = panel.with(Curve::scatter(preset.name(), profile.points("x", "temperature")));
+        let runs = Preset::ALL.map(|p| (p.name(), run_of(ID, p, self.default_size())));
+        let runs = profiles(records, runs);
+        if let Some((_, profile)) = runs.first() {
+            let exact = profile.points("x", "temperature_exact");
+            panel = panel.with(Layer::exact("exact, chain", exact));
+        }
+        for (name, points) in over(&runs, "x", "temperature") {
+            panel = panel.with(Curve::scatter(name, points));
         }
         let caption = "Fourth mode of an insulated chain of 32 particles at t = 1.";
         vec![Figure::new(ID, caption, vec![panel])]

@@ -6,13 +6,15 @@ use whipple_solver::scene::{
 };
 use whipple_solver::units::Units;
 
+use super::figures::{curves, figure, histories, over};
 use super::{
     Case, Claim, Claims, Kind, Level, Quantity, Wanted, Weight, both_presets, conservation,
+    default_run, paper_run, run_of,
 };
 use crate::exact::waves::{Bar, End, StepLoad};
 use crate::norms;
 use crate::plots::{Axis, Figure, Layer, Panel, Series as Curve};
-use crate::record::{Records, RunKey, RunRecord, Scheme, Series};
+use crate::record::{Records, RunKey, RunRecord, Series};
 use crate::run::{Driver, Findings, RunError};
 use crate::scene::AnyScene;
 
@@ -143,27 +145,30 @@ impl Case for Kolsky {
 
         let plateau = load.front_velocity();
         let mut findings = Findings::default();
-        let mut enter = |name: &str, value| findings.norms.insert(name.into(), value);
-        enter("plateau", mean(&history, PLATEAU));
+        findings.enter("plateau", mean(&history, PLATEAU));
         let crest = history.iter().filter(|(t, _)| (CREST.0..CREST.1).contains(t));
         // At a free end the foot of the returning front lies in the window.
         if key.variant != FREE {
-            enter("overshoot", crest.fold(0.0_f64, |top, (_, v)| top.max(v / plateau - 1.0)));
+            findings
+                .enter("overshoot", crest.fold(0.0_f64, |top, (_, v)| top.max(v / plateau - 1.0)));
         }
-        enter("velocity_rms", history_rms(&history, &load, scene.stop_time)?);
+        findings.enter("velocity_rms", history_rms(&history, &load, scene.stop_time)?);
         let late = (0.80e-3, 0.95e-3);
-        enter("late_level", mean(&history, late) / plateau);
+        findings.enter("late_level", mean(&history, late) / plateau);
         let arrival = history.iter().find(|(_, v)| *v >= 0.5 * plateau).map_or(f64::NAN, |p| p.0);
         let spacing = LENGTH / (key.n - 1) as f64;
         let early = 0.5 * load_transit() - arrival;
-        enter("arrival_spacings", early * (BULK / DENSITY).sqrt() / spacing);
+        findings.enter("arrival_spacings", early * (BULK / DENSITY).sqrt() / spacing);
 
         let s = driver.solver().snapshot();
         let x: Vec<f64> = s.x.iter().map(|x| x / spacing).collect();
-        enter("roughness", norms::roughness(&x)?);
+        findings.enter("roughness", norms::roughness(&x)?);
         let strain = driver.solver().strain_energy();
         let integrated = driver.solver().ledger().strain;
-        enter("strain_residual", ((integrated - strain) / strain.max(f64::MIN_POSITIVE)).abs());
+        findings.enter(
+            "strain_residual",
+            ((integrated - strain) / strain.max(f64::MIN_POSITIVE)).abs(),
+        );
         findings.norms.retain(|_, value| value.is_finite());
 
         let exact = history.iter().map(|&(t, _)| Ok(load.sample(0.5 * LENGTH, t)?.velocity));
@@ -191,9 +196,7 @@ impl Case for Kolsky {
     }
 
     fn claims(&self) -> Vec<Claim> {
-        let default = |variant: &str| {
-            RunKey::new(ID, Scheme::preset(Preset::Default), DRAWN[1]).variant(variant)
-        };
+        let default = |variant: &str| default_run(ID, DRAWN[1]).variant(variant);
         let norm = |variant: &str, name| Quantity::Norm(default(variant), name);
         let issue = Claims::new(ID, Kind::Verification, Weight::Must, "issue; exact solution");
         let aim = Claims { weight: Weight::Aim, ..issue };
@@ -230,7 +233,7 @@ impl Case for Kolsky {
                 Wanted::WithinZero(1.0),
             ),
         ];
-        let paper = |n| RunKey::new(ID, Scheme::preset(Preset::Paper), n);
+        let paper = |n| paper_run(ID, n);
         let verified = Claims { source: "exact solution, which Figures 5 and 6 follow", ..issue };
         for n in DRAWN {
             out.push(verified.claim(
@@ -275,7 +278,7 @@ impl Case for Kolsky {
     fn figures(&self, records: &Records) -> Vec<Figure> {
         let mut figures = Vec::new();
         for variant in [FIXED, FREE] {
-            figures.extend(histories(records, variant));
+            figures.extend(midpoint(records, variant));
         }
         figures.push(speed_against_error(records));
         figures
@@ -288,41 +291,22 @@ fn load_transit() -> f64 {
 }
 
 /// Figures 5 and 6 of the paper.
-fn histories(records: &Records, variant: &str) -> Option<Figure> {
-    let panels: Vec<Panel> = DRAWN
-        .iter()
-        .zip(["Figure 5", "Figure 6"])
-        .filter_map(|(&n, number)| {
-            let title = format!("{number}: {n} particles");
-            let (time, velocity) =
-                (Axis::linear("time, ms"), Axis::linear("midpoint velocity, in/s"));
-            let mut panel = Panel::new(title, time, velocity);
-            let mut seen = false;
-            for preset in Preset::ALL {
-                let key = RunKey::new(ID, Scheme::preset(preset), n).variant(variant);
-                let Some(history) = records.get(&key).and_then(|r| r.history.as_ref()) else {
-                    continue;
-                };
-                if !seen {
-                    let exact = history.points("time_ms", "velocity_exact");
-                    panel = panel.with(Layer::exact("exact", exact));
-                    seen = true;
-                }
-                let points = history.points("time_ms", "velocity");
-                panel = panel.with(Curve::line(preset.name(), points));
-            }
-            seen.then_some(panel)
-        })
-        .collect();
-    if panels.is_empty() {
-        return None;
-    }
-    let (id, end) = if variant == FREE { ("free", "free") } else { ("fixed", "fixed") };
+fn midpoint(records: &Records, variant: &str) -> Vec<Figure> {
+    let panels = DRAWN.iter().zip(["Figure 5", "Figure 6"]).filter_map(|(&n, number)| {
+        let title = format!("{number}: {n} particles");
+        let (time, velocity) = (Axis::linear("time, ms"), Axis::linear("midpoint velocity, in/s"));
+        let runs = Preset::ALL.map(|p| (p.name(), run_of(ID, p, n).variant(variant)));
+        let runs = histories(records, runs);
+        let exact = runs.first()?.1.points("time_ms", "velocity_exact");
+        let panel = Panel::new(title, time, velocity).with(Layer::exact("exact", exact));
+        curves(panel, over(&runs, "time_ms", "velocity"))
+    });
+    let end = if variant == FREE { "free" } else { "fixed" };
     let caption = format!(
         "Velocity of the midpoint of the bar, end x = 0 {end}: Figures 5 and 6 of the paper, with \
          both presets and the exact solution."
     );
-    Some(Figure::new(format!("kolsky-{id}"), caption, panels))
+    figure(format!("kolsky-{end}"), &caption, panels)
 }
 
 fn speed_against_error(records: &Records) -> Figure {
@@ -334,7 +318,7 @@ fn speed_against_error(records: &Records) -> Figure {
         .map(|(label, of)| {
             let mut panel = Panel::new("", Axis::log(label), y());
             for preset in Preset::ALL {
-                let record = |n: &usize| records.get(&RunKey::new(ID, Scheme::preset(preset), *n));
+                let record = |n: &usize| records.get(&run_of(ID, preset, *n));
                 let point = |r: &RunRecord| Some((of(r), *r.norms.get("velocity_rms")?));
                 let points = SIZES.iter().filter_map(record).filter_map(point).collect();
                 panel = panel.with(Curve::marked(preset.name(), points));

@@ -6,10 +6,11 @@ use whipple_solver::space::method::Method;
 use whipple_solver::space::scene::{EosData, Failure, GammaLaw, Material, Scene, Shape};
 use whipple_solver::units::Units;
 
-use super::parts::{Columns, moments, motion, resting};
+use super::figures::{beside_exact, figure, histories};
+use super::parts::{Columns, moments, motion, resting, times};
 use super::{Case, Claim, Claims, Kind, Level, Quantity, Wanted, Weight};
 use crate::exact::lattice::{Gate, Path, integrate};
-use crate::plots::{Axis, Figure, Layer, Panel, Series as Curve};
+use crate::plots::{Axis, Figure, Panel};
 use crate::record::{Records, RunKey, Scheme};
 use crate::run::{Findings, RunError, SpaceDriver};
 use crate::scene::AnyScene;
@@ -69,7 +70,7 @@ fn jacobian(variant: &str, time: f64) -> f64 {
 }
 
 /// A row of a matrix times a vector.
-fn times(m: &[[f64; 3]; 3], x: [f64; 3]) -> [f64; 3] {
+fn product(m: &[[f64; 3]; 3], x: [f64; 3]) -> [f64; 3] {
     m.map(|row| row[0] * x[0] + row[1] * x[1] + row[2] * x[2])
 }
 
@@ -168,7 +169,7 @@ impl Case for LatticeKinematics {
         driver: &mut SpaceDriver<'_>,
     ) -> Result<Findings, RunError> {
         let change = change(&key.variant);
-        driver.prepare(|simulation| motion::start(simulation, |p| times(&change, p.position)))?;
+        driver.prepare(|simulation| motion::start(simulation, |p| product(&change, p.position)))?;
         let starts: Vec<(u32, [f64; 3])> = driver
             .solver()
             .all_particles()
@@ -179,8 +180,7 @@ impl Case for LatticeKinematics {
         let mut worst = 0.0_f64;
         // A run that is cut short takes no shorter steps.
         let steps = (STEPS as f64 * scene.stop_time).ceil() as usize;
-        for k in 0..=steps {
-            let time = scene.stop_time * k as f64 / steps as f64;
+        for time in times(scene.stop_time, steps) {
             driver.advance_to(time)?;
             let exact = jacobian(&key.variant, time).recip();
             let (mean, _) = moments(&densities(driver.solver(), &starts));
@@ -191,7 +191,7 @@ impl Case for LatticeKinematics {
         let solver = driver.solver();
         let time = solver.time();
         let strayed = starts.iter().map(|&(id, start)| {
-            let (x, way) = (solver.particle(id).position, times(&change, start));
+            let (x, way) = (solver.particle(id).position, product(&change, start));
             (0..3).map(|d| (x[d] - start[d] - time * way[d]).abs()).fold(0.0, f64::max)
         });
         let (mean, spread) = moments(&densities(solver, &starts));
@@ -199,13 +199,12 @@ impl Case for LatticeKinematics {
         let rule = integrate(path(&key.variant), gate, RULE_STEPS)?;
         let exact = jacobian(&key.variant, time).recip();
         let mut findings = Findings::default();
-        let mut enter = |name: &str, value: f64| findings.norms.insert(name.into(), value);
-        enter("ratio", mean);
-        enter("error", mean / exact - 1.0);
-        enter("largest_error", worst);
-        enter("spread", spread / mean);
-        enter("rule_error", mean / rule.ratio - 1.0);
-        enter("strayed", strayed.fold(0.0, f64::max));
+        findings.enter("ratio", mean);
+        findings.enter("error", mean / exact - 1.0);
+        findings.enter("largest_error", worst);
+        findings.enter("spread", spread / mean);
+        findings.enter("rule_error", mean / rule.ratio - 1.0);
+        findings.enter("strayed", strayed.fold(0.0, f64::max));
         findings.history = Some(history.series());
         Ok(findings)
     }
@@ -270,28 +269,14 @@ impl Case for LatticeKinematics {
     }
 
     fn figures(&self, records: &Records) -> Vec<Figure> {
-        let panels: Vec<Panel> = VARIANTS[..4]
-            .iter()
-            .zip(NAMES)
-            .filter_map(|(variant, name)| {
-                let axes = (Axis::linear("time"), Axis::linear("density / initial"));
-                let mut panel = Panel::new(name, axes.0, axes.1);
-                let mut exact = None;
-                for scheme in schemes() {
-                    let record = records.get(&key(scheme, variant));
-                    let Some(history) = record.and_then(|r| r.history.as_ref()) else { continue };
-                    panel =
-                        panel.with(Curve::line(name_of(scheme), history.points("time", "ratio")));
-                    exact = Some(history.points("time", "exact"));
-                }
-                exact.map(|points| panel.with(Layer::exact("1/J", points)))
-            })
-            .collect();
-        if panels.is_empty() {
-            return Vec::new();
-        }
+        let panels = VARIANTS[..4].iter().zip(NAMES).filter_map(|(variant, name)| {
+            let [time, density] = ["time", "density / initial"].map(Axis::linear);
+            let runs = schemes().map(|scheme| (name_of(scheme), key(scheme, variant)));
+            let panel = Panel::new(name, time, density);
+            beside_exact(panel, &histories(records, runs), ["time", "ratio", "exact"], "1/J")
+        });
         let caption = "Density in the middle of a deformed block, by rule, beside the exact 1/J.";
-        vec![Figure::new("lattice-kinematics-density", caption, panels)]
+        figure("lattice-kinematics-density", caption, panels)
     }
 }
 

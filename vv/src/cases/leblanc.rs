@@ -1,12 +1,9 @@
 //! LeBlanc's tube, in both forms that go by the name: a huge pressure ratio and a small density ratio.
 
-use super::gas::{GasProblem, Setup, Sizes, two_regions, walls};
-use super::{Claim, Claims, Kind, Quantity, Scheme, Wanted, Weight, conservation};
+use super::gas::{GasProblem, Setup, Sizes};
+use super::{Claim, Claims, Kind, Quantity, Wanted, Weight, conservation, default_run};
 use crate::exact::Gas;
-use crate::exact::riemann::Riemann;
-use crate::record::RunKey;
 use crate::run::RunError;
-use whipple_solver::method::Preset;
 
 const ID: &str = "leblanc";
 const LEFT: Gas = Gas { density: 1.0, velocity: 0.0, pressure: 0.2 / 3.0, gamma: 5.0 / 3.0 };
@@ -30,16 +27,9 @@ pub(super) const CASE: GasProblem = GasProblem {
 };
 
 fn setup(variant: &str) -> Result<Setup, RunError> {
-    let (density, membrane) = if variant == "standard" { (1e-3, 1.0 / 3.0) } else { (0.01, 0.3) };
+    let (density, place) = if variant == "standard" { (1e-3, 1.0 / 3.0) } else { (0.01, 0.3) };
     let right = Gas { density, pressure: COLD, ..LEFT };
-    let riemann = Riemann::new(LEFT, right)?;
-    Ok(Setup {
-        regions: two_regions((0.0, LEFT), membrane, (1.0, right)),
-        ends: walls(0.0, 1.0),
-        u_0: 0.0,
-        time: 0.5,
-        exact: Box::new(move |x, t| Ok(riemann.sample((x - membrane) / t).gas)),
-    })
+    Setup::tube((0.0, LEFT), place, (1.0, right), 0.5)
 }
 
 fn claims() -> Vec<Claim> {
@@ -47,7 +37,7 @@ fn claims() -> Vec<Claim> {
     let must = Claims::new(ID, Kind::Verification, Weight::Must, falls);
     let mut out = Vec::new();
     for variant in CASE.variants {
-        let key = |&n: &usize| RunKey::new(ID, Scheme::preset(Preset::Default), n).variant(variant);
+        let key = |&n: &usize| default_run(ID, n).variant(variant);
         let form = if variant.is_empty() { "ExactPack's form" } else { "usual form" };
         out.push(must.claim(
             format!("order of L1 ρ, {form}, `default`"),

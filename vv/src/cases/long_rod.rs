@@ -13,7 +13,7 @@ use whipple_solver::method::{Density, Preset};
 use whipple_solver::space::scene::Scene;
 
 use self::problem::{AS_PRINTED, ID, SIZES};
-use super::{Case, Claim, Level};
+use super::{Case, Claim, Level, run_of};
 use crate::plots::Figure;
 use crate::record::{Records, RunKey, Scheme};
 use crate::report::Table;
@@ -33,12 +33,12 @@ fn key(preset: Preset, n: usize) -> RunKey {
         Preset::Paper => AS_PRINTED,
         Preset::Default => "",
     };
-    RunKey::new(ID, Scheme::preset(preset), n).variant(reading)
+    run_of(ID, preset, n).variant(reading)
 }
 
 /// A run of a variant, at the smallest size.
 fn varied_key(preset: Preset, variant: &str) -> RunKey {
-    RunKey::new(ID, Scheme::preset(preset), SIZES[0]).variant(variant)
+    run_of(ID, preset, SIZES[0]).variant(variant)
 }
 
 /// The run of [`key`] with the density of a kernel, at the smallest size.
@@ -113,12 +113,11 @@ impl Case for LongRod {
         let history = history::columns(&rows);
         let last = |name: &str| history.0[name].last().copied().unwrap_or(f64::NAN);
         let mut findings = Findings::default();
-        let mut enter = |name: &str, value: f64| findings.norms.insert(name.into(), value);
-        enter("residual_length_cm", last("length"));
-        enter("residual_velocity_km_s", last("velocity"));
-        enter("residual_mass_share", last("mass") / history.0["mass"][0]);
-        enter("particles", driver.solver().particles() as f64);
-        enter("failed_elements", last("failed"));
+        findings.enter("residual_length_cm", last("length"));
+        findings.enter("residual_velocity_km_s", last("velocity"));
+        findings.enter("residual_mass_share", last("mass") / history.0["mass"][0]);
+        findings.enter("particles", driver.solver().particles() as f64);
+        findings.enter("failed_elements", last("failed"));
         findings.history = Some(history);
         Ok(findings)
     }

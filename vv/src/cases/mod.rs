@@ -7,6 +7,7 @@ mod beam;
 mod block_collision;
 mod einfeldt;
 mod elastic_plastic_piston;
+mod figures;
 mod free_surface;
 mod galilean_boost;
 mod gas;
@@ -218,12 +219,32 @@ pub fn find(id: &str) -> Option<&'static dyn Case> {
     ALL.into_iter().find(|c| c.id() == id)
 }
 
+/// The run of a preset with its own density scheme.
+fn run_of(case: &str, preset: Preset, n: usize) -> RunKey {
+    RunKey::new(case, Scheme::preset(preset), n)
+}
+
+/// The run of the default preset.
+fn default_run(case: &str, n: usize) -> RunKey {
+    run_of(case, Preset::Default, n)
+}
+
+/// The run of the preset that replicates the paper.
+fn paper_run(case: &str, n: usize) -> RunKey {
+    run_of(case, Preset::Paper, n)
+}
+
+/// A variant by its name, the plain one by what it is.
+fn named<'a>(variant: &'a str, plain: &'a str) -> &'a str {
+    if variant.is_empty() { plain } else { variant }
+}
+
 /// Both presets with their own density schemes, at these sizes.
 fn both_presets(case: &str, sizes: &[usize]) -> Vec<RunKey> {
     Preset::ALL
         .into_iter()
         .flat_map(|p| sizes.iter().map(move |&n| (p, n)))
-        .map(|(p, n)| RunKey::new(case, Scheme::preset(p), n))
+        .map(|(p, n)| run_of(case, p, n))
         .collect()
 }
 

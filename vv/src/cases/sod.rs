@@ -1,10 +1,8 @@
 //! Sod's shock tube: every wave of a gas, none of them strong.
 
-use super::gas::{GasProblem, Region, Setup, Sizes, two_regions, walls};
-use super::{Claim, Claims, Kind, Quantity, Scheme, Wanted, Weight, conservation};
+use super::gas::{GasProblem, Setup, Sizes};
+use super::{Claim, Claims, Kind, Quantity, Wanted, Weight, conservation, default_run, run_of};
 use crate::exact::Gas;
-use crate::exact::riemann::Riemann;
-use crate::record::RunKey;
 use crate::run::RunError;
 use whipple_solver::method::Preset;
 
@@ -31,21 +29,15 @@ pub(super) const CASE: GasProblem = GasProblem {
 };
 
 fn setup(variant: &str) -> Result<Setup, RunError> {
-    let riemann = Riemann::new(LEFT, RIGHT)?;
-    let mut regions: Vec<Region> = two_regions((0.0, LEFT), MEMBRANE, (1.0, RIGHT));
+    let mut setup = Setup::tube((0.0, LEFT), MEMBRANE, (1.0, RIGHT), 0.2)?;
+    let regions = &mut setup.regions;
     if variant == "equal-mass" {
         let mass: f64 = regions.iter().map(|r| r.gas.density * (r.span.1 - r.span.0)).sum();
-        for region in &mut regions {
+        for region in regions {
             region.share = region.gas.density * (region.span.1 - region.span.0) / mass;
         }
     }
-    Ok(Setup {
-        regions,
-        ends: walls(0.0, 1.0),
-        u_0: 0.0,
-        time: 0.2,
-        exact: Box::new(move |x, t| Ok(riemann.sample((x - MEMBRANE) / t).gas)),
-    })
+    Ok(setup)
 }
 
 fn claims() -> Vec<Claim> {
@@ -54,14 +46,14 @@ fn claims() -> Vec<Claim> {
     let verified = Claims::new(ID, Kind::Verification, Weight::Must, first);
     let mut out = Vec::new();
     for preset in Preset::ALL {
-        let keys = SIZES.iter().map(|&n| RunKey::new(ID, Scheme::preset(preset), n)).collect();
+        let keys = SIZES.iter().map(|&n| run_of(ID, preset, n)).collect();
         out.push(verified.claim(
             format!("order of L1 ρ, `{}`", preset.name()),
             Quantity::Order(keys, "density_l1"),
             Wanted::AtLeast(0.8),
         ));
     }
-    let at = |variant: &str| RunKey::new(ID, Scheme::preset(Preset::Default), 200).variant(variant);
+    let at = |variant: &str| default_run(ID, 200).variant(variant);
     let study = Claims::new(ID, Kind::Verification, Weight::Aim, study).in_sample();
     let l1 = |variant, bound| (Quantity::Norm(at(variant), "density_l1"), Wanted::AtMost(bound));
     let (quantity, wanted) = l1("", 0.0033);

@@ -3,15 +3,17 @@
 use whipple_solver::method::Preset;
 use whipple_solver::space::Simulation;
 use whipple_solver::space::output::Particle;
-use whipple_solver::space::scene::{Failure, Material, Scene, Shape};
+use whipple_solver::space::scene::{Failure, Material, Scene};
 use whipple_solver::units::Units;
 
+use super::figures::{beside_exact, figure, histories};
+use super::parts::column::{Column, Face};
 use super::parts::metals::COPPER;
-use super::parts::{Columns, moments, motion, resting, sleeve};
-use super::{Case, Claim, Claims, Kind, Level, Quantity, Wanted, Weight};
+use super::parts::{Columns, moments, motion, times};
+use super::{Case, Claim, Claims, Kind, Level, Quantity, Wanted, Weight, default_run};
 use crate::exact::spall::PlateImpact;
-use crate::plots::{Axis, Figure, Layer, Panel, Series as Curve};
-use crate::record::{Records, RunKey, Scheme};
+use crate::plots::{Axis, Figure, Layer, Panel};
+use crate::record::{Records, RunKey};
 use crate::run::{Findings, RunError, SpaceDriver};
 use crate::scene::AnyScene;
 
@@ -41,10 +43,6 @@ const VARIANTS: [&str; 2] = ["", HOLDS];
 fn exact() -> Result<PlateImpact, RunError> {
     let material = [COPPER.density(), COPPER.sound()];
     Ok(PlateImpact::new(material, [FLYER, TARGET], SPEED)?)
-}
-
-fn default_key(variant: &str, n: usize) -> RunKey {
-    RunKey::new(ID, Scheme::preset(Preset::Default), n).variant(variant)
 }
 
 /// The flyer moves, and the nodes where it meets the target move half as fast.
@@ -99,23 +97,20 @@ impl Case for Spall {
     }
 
     fn scene(&self, preset: Preset, variant: &str, n: usize) -> AnyScene {
-        let edge = FLYER / n as f64;
-        let width = ACROSS as f64 * edge;
         let spall = (variant != HOLDS).then_some(STRENGTH);
         let metal =
             Material { failure: Failure { spall, ..Failure::default() }, ..COPPER.material() };
-        let thickness = FLYER + TARGET;
-        let cells = [(thickness / edge).round() as usize, ACROSS, ACROSS];
-        let shape = Shape::Box { size: [thickness, width, width] };
-        let plates = resting(COPPER.name, shape, cells, [0.5 * thickness - FLYER, 0.0, 0.0]);
+        let length = FLYER + TARGET;
+        let cells = (length / FLYER * n as f64).round() as usize;
+        let plates = Column { length, cells, across: ACROSS };
         Scene {
             name: ID.into(),
             units: Units::CmGUsMbar,
-            stop_time: AFTER * (FLYER + TARGET) / COPPER.sound(),
+            stop_time: AFTER * length / COPPER.sound(),
             method: preset.space(),
-            walls: sleeve(width),
+            walls: plates.sides(),
             materials: vec![metal],
-            bodies: vec![plates],
+            bodies: vec![plates.body(COPPER.name, 0.5 * length - FLYER, 0.0)],
         }
         .into()
     }
@@ -131,19 +126,15 @@ impl Case for Spall {
         let solver = driver.solver();
         let depths: Vec<f64> =
             solver.all_elements().map(|e| TARGET - solver.particle(e.centre).position[0]).collect();
-        let on_rear = |x: f64| (x - TARGET).abs() < 1e-6 * TARGET;
-        let face: Vec<u32> =
-            solver.all_particles().filter(|p| on_rear(p.position[0])).map(|p| p.id).collect();
+        let face = Face::at(solver, TARGET);
         let mut history = Columns::default();
         let mut first = None;
-        for k in 0..=ENTRIES {
-            driver.advance_to(scene.stop_time * k as f64 / ENTRIES as f64)?;
+        for time in times(scene.stop_time, ENTRIES) {
+            driver.advance_to(time)?;
             let now = driver.look(|solver, _| {
-                let velocities: Vec<f64> =
-                    face.iter().map(|&i| solver.particle(i).velocity[0]).collect();
                 let [least, most] = opened(solver, &depths).unwrap_or([f64::NAN; 2]);
                 let failed = solver.failed().0 as f64;
-                vec![solver.time(), moments(&velocities).0, failed, least, most]
+                vec![solver.time(), face.velocity(solver, 0.0), failed, least, most]
             })?;
             let (time, open) = (now[0], [now[3], now[4]]);
             history.row([
@@ -172,20 +163,20 @@ impl Case for Spall {
         let last = opened(driver.solver(), &depths).unwrap_or([f64::NAN; 2]);
         let edge = FLYER / key.n as f64;
         let mut findings = Findings::default();
-        let mut enter = |name: &str, value: f64| findings.norms.insert(name.into(), value);
-        enter("plateau", plateau);
-        enter("highest", highest);
-        enter("pull_back", fall / SPEED);
-        enter("failed_elements", driver.solver().failed().0 as f64);
+        findings.enter("plateau", plateau);
+        findings.enter("highest", highest);
+        findings.enter("pull_back", fall / SPEED);
+        findings.enter("failed_elements", driver.solver().failed().0 as f64);
         // A plate that holds opens nowhere.
         if key.variant != HOLDS {
             // Not a number if the run was cut short.
             let indicated = 0.5 * exact.impedance() * fall;
-            enter("indicated_over_strength", indicated / STRENGTH);
-            enter("depth_error_cells", (0.5 * (least + most) - exact.spall_depth()) / edge);
-            enter("opened_cells", (last[1] - last[0]) / edge + 1.0);
+            findings.enter("indicated_over_strength", indicated / STRENGTH);
+            findings
+                .enter("depth_error_cells", (0.5 * (least + most) - exact.spall_depth()) / edge);
+            findings.enter("opened_cells", (last[1] - last[0]) / edge + 1.0);
             let time = first.map_or(f64::NAN, |(time, _)| time);
-            enter("time_error", time / exact.spall_time() - 1.0);
+            findings.enter("time_error", time / exact.spall_time() - 1.0);
         }
         findings.history = Some(history.series());
         Ok(findings)
@@ -196,10 +187,10 @@ impl Case for Spall {
     }
 
     fn runs(&self, level: Level) -> Vec<RunKey> {
-        let mut keys: Vec<RunKey> = VARIANTS.map(|v| default_key(v, SIZES[1])).into();
-        keys.push(default_key("", SIZES[0]));
+        let mut keys: Vec<RunKey> = VARIANTS.map(|v| default_run(ID, SIZES[1]).variant(v)).into();
+        keys.push(default_run(ID, SIZES[0]));
         if level >= Level::Standard {
-            keys.push(default_key("", SIZES[2]));
+            keys.push(default_run(ID, SIZES[2]));
         }
         keys
     }
@@ -210,7 +201,7 @@ impl Case for Spall {
         let mut out = Vec::new();
         let aim = Claims { weight: Weight::Aim, ..must };
         for n in SIZES {
-            let norm = |name| Quantity::Norm(default_key("", n), name);
+            let norm = |name| Quantity::Norm(default_run(ID, n), name);
             out.push(must.claim(
                 format!("spall plane off that of the theory, in cells, n = {n}"),
                 norm("depth_error_cells"),
@@ -227,13 +218,13 @@ impl Case for Spall {
                 Wanted::Near(1.0, 0.05),
             ));
         }
-        let holds = default_key(HOLDS, SIZES[1]);
+        let holds = default_run(ID, SIZES[1]).variant(HOLDS);
         out.push(must.claim(
             "fall of the rear face over the speed of the flyer if the plate holds",
             Quantity::Norm(holds, "pull_back"),
             Wanted::Near(1.0, 0.1),
         ));
-        out.extend(super::conservation_in_space(ID, &default_key("", SIZES[1])));
+        out.extend(super::conservation_in_space(ID, &default_run(ID, SIZES[1])));
         out
     }
 
@@ -252,22 +243,21 @@ impl Case for Spall {
 
     fn figures(&self, records: &Records) -> Vec<Figure> {
         let axes = (Axis::linear("time, µs"), Axis::linear("rear face / speed of the flyer"));
-        let mut panel = Panel::new("", axes.0, axes.1);
-        let mut theory = None;
-        let runs = SIZES.map(|n| (format!("n = {n}"), default_key("", n)));
-        let holds = [(format!("holds, n = {}", SIZES[1]), default_key(HOLDS, SIZES[1]))];
-        for (name, key) in runs.into_iter().chain(holds) {
-            let history = records.get(&key).and_then(|r| r.history.as_ref());
-            let Some(history) = history else { continue };
-            panel = panel.with(Curve::line(name, history.points("time", "velocity")));
-            theory = Some(history.points("time", "holds"));
-        }
-        let Some(theory) = theory else { return Vec::new() };
-        panel = panel.with(Layer::exact("acoustic, if it holds", theory));
-        if let Ok(fall) = exact().and_then(|exact| Ok(exact.pull_back(STRENGTH)?)) {
-            panel = panel.with(Layer::horizontal(1.0 - fall / SPEED, "pull-back of the strength"));
-        }
-        let caption = "Velocity of the rear face of the target.";
-        vec![Figure::new("spall-rear-face", caption, vec![panel])]
+        let runs = SIZES.map(|n| (format!("n = {n}"), default_run(ID, n)));
+        let holds = default_run(ID, SIZES[1]).variant(HOLDS);
+        let holds = [(format!("holds, n = {}", SIZES[1]), holds)];
+        let runs = histories(records, runs.into_iter().chain(holds));
+        let panel = beside_exact(
+            Panel::new("", axes.0, axes.1),
+            &runs,
+            ["time", "velocity", "holds"],
+            "acoustic, if it holds",
+        );
+        let panel = panel.map(|panel| {
+            let fall = exact().and_then(|exact| Ok(exact.pull_back(STRENGTH)?));
+            let rule = |fall| Layer::horizontal(1.0 - fall / SPEED, "pull-back of the strength");
+            if let Ok(fall) = fall { panel.with(rule(fall)) } else { panel }
+        });
+        figure("spall-rear-face", "Velocity of the rear face of the target.", panel)
     }
 }

@@ -6,11 +6,14 @@ use whipple_solver::method::Preset;
 use whipple_solver::space::scene::{Body, Material, Scene, Shape, Strength};
 use whipple_solver::units::Units;
 
+use super::figures::{curves, figure, histories, over};
 use super::parts::metals::COPPER;
-use super::parts::{Columns, control, modes, resting};
-use super::{Case, Claim, Claims, Kind, Level, Quantity, Wanted, Weight};
-use crate::plots::{Axis, Figure, Panel, Series as Curve};
-use crate::record::{Records, RunKey, Scheme};
+use super::parts::{control, history, modes, resting, times};
+use super::{
+    Case, Claim, Claims, Kind, Level, Quantity, Wanted, Weight, default_run, named, paper_run,
+};
+use crate::plots::{Axis, Figure, Panel};
+use crate::record::{Records, RunKey};
 use crate::run::{Findings, RunError, SpaceDriver};
 use crate::scene::AnyScene;
 
@@ -29,14 +32,6 @@ const ENTRIES: usize = 64;
 const NOISY: &str = "noise";
 const VARIANTS: [&str; 4] = ["", NOISY, control::HOURGLASS, control::CENTRING];
 const SIZES: [usize; 2] = [10, 20];
-
-fn default_key(variant: &str, n: usize) -> RunKey {
-    RunKey::new(ID, Scheme::preset(Preset::Default), n).variant(variant)
-}
-
-fn paper_key() -> RunKey {
-    RunKey::new(ID, Scheme::preset(Preset::Paper), SIZES[0])
-}
 
 /// Largest of the last quarter of values over the largest of the first.
 fn growth(values: &[f64]) -> f64 {
@@ -108,31 +103,27 @@ impl Case for SpinningBlock {
         _: &RunKey,
         driver: &mut SpaceDriver<'_>,
     ) -> Result<Findings, RunError> {
-        let mut history = Columns::default();
-        for k in 1..=ENTRIES {
-            driver.advance_to(scene.stop_time * k as f64 / ENTRIES as f64)?;
-            let now = driver.look(|solver, balance| {
-                let modes = modes::energies(solver);
-                let initial = balance.initial.kinetic;
-                vec![
-                    solver.time() * SPIN / TAU,
-                    (balance.now.energy() - balance.initial.energy()) / initial,
-                    modes.hourglass / initial,
-                    modes.checkerboard / initial,
-                    (balance.now.shear + balance.now.tension) / initial,
-                ]
-            })?;
-            history.read(&["turn", "energy", "hourglass", "checkerboard", "stored"], &now);
-        }
+        let names = ["turn", "energy", "hourglass", "checkerboard", "stored"];
+        let times = times(scene.stop_time, ENTRIES).skip(1);
+        let history = history(driver, times, names, |solver, balance| {
+            let modes = modes::energies(solver);
+            let initial = balance.initial.kinetic;
+            [
+                solver.time() * SPIN / TAU,
+                (balance.now.energy() - balance.initial.energy()) / initial,
+                modes.hourglass / initial,
+                modes.checkerboard / initial,
+                (balance.now.shear + balance.now.tension) / initial,
+            ]
+        })?;
         let largest = |name: &str| history.column(name).iter().map(|v| v.abs()).fold(0.0, f64::max);
         let mut findings = Findings::default();
-        let mut enter = |name: &str, value: f64| findings.norms.insert(name.into(), value);
-        enter("energy_error", largest("energy"));
+        findings.enter("energy_error", largest("energy"));
         for name in ["hourglass", "checkerboard"] {
-            enter(name, largest(name));
-            enter(&format!("{name}_growth"), growth(history.column(name)));
+            findings.enter(name, largest(name));
+            findings.enter(&format!("{name}_growth"), growth(history.column(name)));
         }
-        enter("stored", largest("stored"));
+        findings.enter("stored", largest("stored"));
         findings.history = Some(history.series());
         Ok(findings)
     }
@@ -142,10 +133,10 @@ impl Case for SpinningBlock {
     }
 
     fn runs(&self, level: Level) -> Vec<RunKey> {
-        let mut keys: Vec<RunKey> = VARIANTS.map(|v| default_key(v, SIZES[0])).into();
+        let mut keys: Vec<RunKey> = VARIANTS.map(|v| default_run(ID, SIZES[0]).variant(v)).into();
         if level >= Level::Standard {
-            keys.push(paper_key());
-            keys.push(default_key("", SIZES[1]));
+            keys.push(paper_run(ID, SIZES[0]));
+            keys.push(default_run(ID, SIZES[1]));
         }
         keys
     }
@@ -154,8 +145,8 @@ impl Case for SpinningBlock {
         let must = Claims::new(ID, Kind::Verification, Weight::Must, "issue; invariance");
         let mut out = Vec::new();
         for variant in VARIANTS {
-            let name = if variant.is_empty() { "plain" } else { variant };
-            let key = default_key(variant, SIZES[0]);
+            let name = named(variant, "plain");
+            let key = default_run(ID, SIZES[0]).variant(variant);
             out.push(must.claim(
                 format!("{name}: change of the energy over the initial kinetic energy"),
                 Quantity::Norm(key.clone(), "energy_error"),
@@ -173,7 +164,7 @@ impl Case for SpinningBlock {
             out.extend(super::conservation_in_space(ID, &key));
         }
         let answers = [("stored", "largest elastic energy")];
-        out.extend(control::claims(ID, &default_key("", SIZES[0]), &answers));
+        out.extend(control::claims(ID, &default_run(ID, SIZES[0]), &answers));
         out
     }
 
@@ -190,35 +181,25 @@ impl Case for SpinningBlock {
 
     fn figures(&self, records: &Records) -> Vec<Figure> {
         let runs = [
-            ("default", default_key("", SIZES[0])),
-            ("default, n = 20", default_key("", SIZES[1])),
-            ("default, noise", default_key(NOISY, SIZES[0])),
-            ("paper", paper_key()),
+            ("default", default_run(ID, SIZES[0])),
+            ("default, n = 20", default_run(ID, SIZES[1])),
+            ("default, noise", default_run(ID, SIZES[0]).variant(NOISY)),
+            ("paper", paper_run(ID, SIZES[0])),
         ];
         let names = [
             ("energy", "change of energy / initial"),
             ("hourglass", "hourglass energy / initial"),
             ("checkerboard", "checkerboard energy / initial"),
         ];
-        let panels: Vec<Panel> = names
-            .into_iter()
-            .filter_map(|(column, label)| {
-                let mut panel = Panel::new("", Axis::linear("turn"), Axis::log(label));
-                for (name, key) in &runs {
-                    let history = records.get(key).and_then(|r| r.history.as_ref());
-                    let Some(history) = history else { continue };
-                    let points = history.points("turn", column);
-                    let points = points.into_iter().map(|p| (p.0, p.1.abs())).collect();
-                    panel = panel.with(Curve::line(*name, points));
-                }
-                (!panel.layers.is_empty()).then_some(panel)
-            })
-            .collect();
-        if panels.is_empty() {
-            return Vec::new();
-        }
+        let runs = histories(records, runs);
+        let panels = names.into_iter().filter_map(|(column, label)| {
+            let sizes = over(&runs, "turn", column).map(|(name, points)| {
+                (name, points.into_iter().map(|p| (p.0, p.1.abs())).collect())
+            });
+            curves(Panel::new("", Axis::linear("turn"), Axis::log(label)), sizes)
+        });
         let caption = "A turn of the block: size of the change of the energy, and energy in modes that no \
                        strain resists.";
-        vec![Figure::new("spinning-block-energy", caption, panels)]
+        figure("spinning-block-energy", caption, panels)
     }
 }

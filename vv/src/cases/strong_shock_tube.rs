@@ -1,9 +1,8 @@
 //! A shock tube with a pressure ratio of 1e5: does the method survive, and where is the shock?
 
-use super::gas::{GasProblem, Setup, Sizes, two_regions, walls};
-use super::{Claim, Claims, Kind, Quantity, Scheme, Wanted, Weight, conservation};
+use super::gas::{GasProblem, Setup, Sizes};
+use super::{Claim, Claims, Kind, Quantity, Wanted, Weight, conservation, run_of};
 use crate::exact::Gas;
-use crate::exact::riemann::Riemann;
 use crate::record::RunKey;
 use crate::run::RunError;
 use whipple_solver::method::Preset;
@@ -30,20 +29,13 @@ pub(super) const CASE: GasProblem = GasProblem {
 };
 
 fn setup(_: &str) -> Result<Setup, RunError> {
-    let riemann = Riemann::new(LEFT, RIGHT)?;
-    Ok(Setup {
-        regions: two_regions((0.0, LEFT), MEMBRANE, (1.0, RIGHT)),
-        ends: walls(0.0, 1.0),
-        u_0: 0.0,
-        time: 0.012,
-        exact: Box::new(move |x, t| Ok(riemann.sample((x - MEMBRANE) / t).gas)),
-    })
+    Setup::tube((0.0, LEFT), MEMBRANE, (1.0, RIGHT), 0.012)
 }
 
 fn claims() -> Vec<Claim> {
     let issue = "acceptance number of the 1D study: relative L1 of density at n = 200";
     let must = Claims::new(ID, Kind::Verification, Weight::Must, issue).in_sample();
-    let at = |preset| RunKey::new(ID, Scheme::preset(preset), 200);
+    let at = |preset| run_of(ID, preset, 200);
     let default = at(Preset::Default);
     let l1 = |key: RunKey| Quantity::Norm(key, "density_l1");
     let mut out =

@@ -7,11 +7,12 @@ use whipple_solver::space::scene::{
 };
 use whipple_solver::units::Units;
 
+use super::figures::{curves, figure, histories, over, profiles};
 use super::parts::discs::Discs;
-use super::parts::{Columns, control, moments, resting};
-use super::{Case, Claim, Claims, Kind, Level, Quantity, Wanted, Weight};
-use crate::plots::{Along, Axis, Figure, Layer, Panel, Series as Curve};
-use crate::record::{Records, RunKey, Scheme};
+use super::parts::{Columns, control, moments, resting, times};
+use super::{Case, Claim, Claims, Kind, Level, Quantity, Wanted, Weight, run_of};
+use crate::plots::{Along, Axis, Figure, Layer, Panel};
+use crate::record::{Records, RunKey};
 use crate::run::{Findings, RunError, SpaceDriver};
 use crate::scene::AnyScene;
 
@@ -175,7 +176,7 @@ fn varied(method: Method, variant: &str) -> Method {
 
 impl Taylor {
     fn key(&self, preset: Preset, n: usize) -> RunKey {
-        RunKey::new(self.id, Scheme::preset(preset), n)
+        run_of(self.id, preset, n)
     }
 
     fn default_key(&self, n: usize) -> RunKey {
@@ -238,8 +239,8 @@ impl Case for Taylor {
         let [_, length, _] = self.rod;
         let mut discs = Discs::new(driver.solver());
         let mut history = Columns::default();
-        for k in 0..=ENTRIES {
-            driver.advance_to(scene.stop_time * k as f64 / ENTRIES as f64)?;
+        for time in times(scene.stop_time, ENTRIES) {
+            driver.advance_to(time)?;
             let mut now = driver.look(|solver, balance| {
                 let rod = discs.look(solver);
                 let foot = rod.foot();
@@ -268,16 +269,15 @@ impl Case for Taylor {
         let (last, _) = moments(&lengths[lengths.len() - ENTRIES / 4..]);
         let strains = driver.solver().all_elements().filter(|e| e.live).map(|e| e.strain);
         let mut findings = Findings::default();
-        let mut enter = |name: &str, value: f64| findings.norms.insert(name.into(), value);
-        enter("length_ratio", last / (MM * length));
-        enter("length_mm", last);
-        enter("shortest_mm", shortest);
-        enter("foot_radius_mm", MM * foot.radius);
-        enter("foot_left_mm", MM * foot.left);
-        enter("foot_reach_mm", MM * rod.reach);
-        enter("bulge_radius_mm", MM * rod.radius_at(BULGE * length));
-        enter("largest_strain", strains.fold(0.0, f64::max));
-        enter("dead_elements", driver.solver().failed().1 as f64);
+        findings.enter("length_ratio", last / (MM * length));
+        findings.enter("length_mm", last);
+        findings.enter("shortest_mm", shortest);
+        findings.enter("foot_radius_mm", MM * foot.radius);
+        findings.enter("foot_left_mm", MM * foot.left);
+        findings.enter("foot_reach_mm", MM * rod.reach);
+        findings.enter("bulge_radius_mm", MM * rod.radius_at(BULGE * length));
+        findings.enter("largest_strain", strains.fold(0.0, f64::max));
+        findings.enter("dead_elements", driver.solver().failed().1 as f64);
         let mut profile = Columns::default();
         for section in rod.sections.iter().filter(|s| s.height.is_finite()) {
             profile.row([("height", MM * section.height), ("radius", MM * section.radius)]);
@@ -359,36 +359,25 @@ impl Case for Taylor {
     }
 
     fn figures(&self, records: &Records) -> Vec<Figure> {
-        let [mut length, mut foot, mut shape] = [
-            ("time, µs", "length, mm"),
-            ("time, µs", "foot radius, mm"),
-            ("height, mm", "radius, mm"),
-        ]
-        .map(|(x, y)| Panel::new("", Axis::linear(x), Axis::linear(y)));
         let defaults = SIZES.map(|n| (format!("default, n = {n}"), self.default_key(n)));
         let paper = [("paper".to_owned(), self.key(Preset::Paper, SIZES[0]))];
-        let mut any = false;
-        for (name, key) in defaults.into_iter().chain(paper) {
-            let Some(record) = records.get(&key) else { continue };
-            let (Some(history), Some(profile)) = (&record.history, &record.profile) else {
-                continue;
-            };
-            any = true;
-            length = length.with(Curve::line(&name, history.points("time", "length")));
-            foot = foot.with(Curve::line(&name, history.points("time", "foot")));
-            shape = shape.with(Curve::line(&name, profile.points("height", "radius")));
-        }
-        let [length, foot] = [(length, 0), (foot, 1)].map(|(panel, k)| {
-            let wanted = MM * self.wanted[k];
-            panel.with(Layer::Span {
+        let runs: Vec<_> = defaults.into_iter().chain(paper).collect();
+        let histories = histories(records, runs.clone());
+        let panel = |x: &str, y: &str| Panel::new("", Axis::linear(x), Axis::linear(y));
+        let measured = [("length", "length, mm"), ("foot", "foot radius, mm")];
+        let panels = measured.into_iter().zip(self.wanted).filter_map(|((name, label), wanted)| {
+            let panel = curves(panel("time, µs", label), over(&histories, "time", name))?;
+            let wanted = MM * wanted;
+            Some(panel.with(Layer::Span {
                 along: Along::Horizontal,
                 limits: (wanted * (1.0 - self.share), wanted * (1.0 + self.share)),
                 name: format!("{}, ± {} %", self.reference, 100.0 * self.share),
-            })
+            }))
         });
+        let profiles = profiles(records, runs);
+        let shape = curves(panel("height, mm", "radius, mm"), over(&profiles, "height", "radius"));
         let caption = "Length, foot radius, and final shape: radii of the discs with the area of the \
                        sections.";
-        let figure = Figure::new(format!("{}-shape", self.id), caption, vec![length, foot, shape]);
-        if any { vec![figure] } else { Vec::new() }
+        figure(format!("{}-shape", self.id), caption, panels.chain(shape))
     }
 }

@@ -1,13 +1,11 @@
 //! Uniform collapse: a cold gas falls on a point, and every density rule must say 1/(1 - t).
 
 use super::gas::{COLD_PRESSURE, GasProblem, Region, Setup, Sizes};
-use super::{Claim, Claims, Kind, Quantity, Scheme, Wanted, Weight, conservation};
+use super::{Claim, Claims, Kind, Quantity, Wanted, Weight, conservation, default_run, paper_run};
 use crate::exact::Gas;
 use crate::exact::Geometry;
 use crate::exact::collapse::UniformCollapse;
-use crate::record::RunKey;
 use crate::run::RunError;
-use whipple_solver::method::Preset;
 use whipple_solver::scene::{Boundaries, Boundary};
 
 const ID: &str = "uniform-collapse";
@@ -43,7 +41,7 @@ fn setup(_: &str) -> Result<Setup, RunError> {
 fn claims() -> Vec<Claim> {
     let rule = "the density rule is exact for uniform compression, and nothing else may act";
     let must = Claims::new(ID, Kind::Verification, Weight::Must, rule);
-    let key = RunKey::new(ID, Scheme::preset(Preset::Default), 200);
+    let key = default_run(ID, 200);
     let mut out = vec![must.claim(
         "L1 ρ, n = 200, `default`",
         Quantity::Norm(key.clone(), "density_l1"),
@@ -54,7 +52,7 @@ fn claims() -> Vec<Claim> {
     let shown = Claims { kind: Kind::Stability, weight: Weight::Shown, source: limit, ..must };
     out.push(shown.claim(
         "L1 ρ, n = 200, `paper`",
-        Quantity::Norm(RunKey::new(ID, Scheme::preset(Preset::Paper), 200), "density_l1"),
+        Quantity::Norm(paper_run(ID, 200), "density_l1"),
         Wanted::AtMost(1e-3),
     ));
     out.extend(conservation(ID, &key));

@@ -3,12 +3,13 @@
 use std::sync::OnceLock;
 
 use super::gas::{GasProblem, Region, Setup, Sizes, walls};
-use super::{Claim, Claims, Kind, Quantity, Scheme, Wanted, Weight, conservation};
+use super::{
+    Claim, Claims, Kind, Quantity, Scheme, Wanted, Weight, conservation, default_run, paper_run,
+};
 use crate::exact::Gas;
 use crate::record::RunKey;
 use crate::references::Table;
 use crate::run::RunError;
-use whipple_solver::method::Preset;
 
 const ID: &str = "woodward-colella";
 const SIZES: &[usize] = &[200, 400, 800];
@@ -129,7 +130,7 @@ pub(crate) fn make_reference() -> Result<String, RunError> {
 fn claims() -> Vec<Claim> {
     let issue = "issue: L1 of density over its range, n = 400, against the fine Godunov run";
     let must = Claims::new(ID, Kind::Comparison, Weight::Must, issue);
-    let key = RunKey::new(ID, Scheme::preset(Preset::Default), 400);
+    let key = default_run(ID, 400);
     let mut out = vec![must.claim(
         "L1 ρ, n = 400, `default`",
         Quantity::Norm(key.clone(), "density_l1"),
@@ -145,7 +146,7 @@ fn claims() -> Vec<Claim> {
     let shown = Claims::new(ID, Kind::Stability, Weight::Shown, limit);
     out.push(shown.claim(
         "L1 ρ, n = 400, `paper`",
-        Quantity::Norm(RunKey::new(ID, Scheme::preset(Preset::Paper), 400), "density_l1"),
+        Quantity::Norm(paper_run(ID, 400), "density_l1"),
         Wanted::AtMost(0.03),
     ));
     out.extend(conservation(ID, &key));

@@ -1,5 +1,6 @@
 //! What cases in space share: metals, walls, bodies, averages over planes, initial motions.
 
+pub(super) mod column;
 pub(super) mod control;
 pub(super) mod discs;
 pub(super) mod fit;
@@ -11,11 +12,14 @@ pub(super) mod shells;
 
 use std::collections::BTreeMap;
 
+use whipple_solver::space::Simulation;
+use whipple_solver::space::ledger::Balance;
 use whipple_solver::space::scene::{
     Body, EosData, Failure, Hold, Material, Shape, Side, Turn, Wall,
 };
 
 use crate::record::Series;
+use crate::run::{RunError, SpaceDriver};
 
 /// A plane of symmetry.
 pub(super) fn mirror(axis: usize, position: f64, material: Side) -> Wall {
@@ -62,6 +66,32 @@ pub(super) fn moments(values: &[f64]) -> (f64, f64) {
     let n = values.len() as f64;
     let mean = values.iter().sum::<f64>() / n;
     (mean, (values.iter().map(|v| (v - mean) * (v - mean)).sum::<f64>() / n).sqrt())
+}
+
+/// Equally spaced times from 0 to the end of a run.
+pub(super) fn times(stop: f64, entries: usize) -> impl Iterator<Item = f64> {
+    (0..=entries).map(move |k| stop * k as f64 / entries as f64)
+}
+
+/// Equally spaced times over the second half of a run.
+pub(super) fn late_times(stop: f64, entries: usize) -> impl Iterator<Item = f64> {
+    (0..=entries).map(move |k| stop * (0.5 + 0.5 * k as f64 / entries as f64))
+}
+
+/// What is read off the states at some times, one column a name.
+pub(super) fn history<const N: usize>(
+    driver: &mut SpaceDriver<'_>,
+    times: impl Iterator<Item = f64>,
+    names: [&str; N],
+    read: impl Fn(&Simulation, &Balance) -> [f64; N],
+) -> Result<Columns, RunError> {
+    let mut history = Columns::default();
+    for time in times {
+        driver.advance_to(time)?;
+        let now = driver.look(|solver, balance| read(solver, balance).into())?;
+        history.read(&names, &now);
+    }
+    Ok(history)
 }
 
 /// Columns of a history or profile that grow row by row.

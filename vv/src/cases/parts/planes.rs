@@ -102,10 +102,58 @@ pub(in crate::cases) fn mean(
     super::moments(&inside).0
 }
 
+/// How the pressure swings behind a front, as parts of the pressure that it should have there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::cases) struct Ringing {
+    /// Highest plane over the level, less one.
+    pub(in crate::cases) over: f64,
+    /// One less the lowest plane behind the first crest over the level.
+    pub(in crate::cases) under: f64,
+    /// From the front back to the farthest plane that is off the level by more than a share; zero
+    /// where there is none.
+    pub(in crate::cases) settling: f64,
+}
+
+impl Ringing {
+    /// Of the planes between a place and the front behind which their pressure should be `level`,
+    /// settled where it stays within `share` of it.
+    pub(in crate::cases) fn behind(
+        layers: &[Plane],
+        [from, front]: [f64; 2],
+        level: f64,
+        share: f64,
+    ) -> Self {
+        let back: Vec<&Plane> =
+            layers.iter().rev().filter(|l| l.place > from && l.place < front).collect();
+        let rise = back.windows(2).take_while(|w| w[1].pressure > w[0].pressure).count();
+        let ratios = |from: usize| back.iter().skip(from).map(|l| l.pressure / level);
+        let off = |l: &&&Plane| (l.pressure / level - 1.0).abs() > share;
+        Self {
+            over: ratios(0).fold(f64::NAN, f64::max) - 1.0,
+            under: 1.0 - ratios(rise).fold(f64::NAN, f64::min),
+            settling: back.iter().rfind(off).map_or(0.0, |l| front - l.place),
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use approx::assert_relative_eq;
+
+    #[test]
+    fn ringing_is_what_a_front_leaves_behind_it() {
+        let pressures = [9.0, 2.0, 2.0, 1.9, 2.4, 1.5, 3.0, 1.4, 0.0];
+        let at = |(k, &pressure)| Plane { place: k as f64, pressure, ..Plane::default() };
+        let layers: Vec<Plane> = pressures.iter().enumerate().map(at).collect();
+        let ringing = Ringing::behind(&layers, [0.5, 7.5], 2.0, 0.1);
+        assert_relative_eq!(ringing.over, 0.5);
+        // Not the plane on the rise, at 1.4.
+        assert_relative_eq!(ringing.under, 0.25);
+        assert_relative_eq!(ringing.settling, 3.5);
+        assert_relative_eq!(Ringing::behind(&layers, [0.5, 3.5], 2.0, 0.1).settling, 0.0);
+        assert!(Ringing::behind(&layers, [3.5, 3.7], 2.0, 0.1).over.is_nan());
+    }
 
     #[test]
     fn a_front_is_the_last_fall_through_its_level() {

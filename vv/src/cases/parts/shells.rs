@@ -26,6 +26,8 @@ pub(in crate::cases) struct Shell {
     pub(in crate::cases) velocity: f64,
     pub(in crate::cases) density: f64,
     pub(in crate::cases) pressure: f64,
+    /// Root mean square of the pressure about its mean.
+    pub(in crate::cases) pressure_scatter: f64,
     mass: f64,
 }
 
@@ -44,13 +46,16 @@ pub(in crate::cases) fn shells(
         shell.velocity += p.mass * outward(geometry, &p);
         shell.density += p.mass * p.rho;
         shell.pressure += p.mass * p.pressure;
+        shell.pressure_scatter += p.mass * p.pressure * p.pressure;
     }
     shells.retain(|shell| shell.mass > 0.0);
     for shell in &mut shells {
-        let Shell { radius, velocity, density, pressure, mass } = shell;
-        for sum in [radius, velocity, density, pressure] {
+        let Shell { radius, velocity, density, pressure, pressure_scatter, mass } = shell;
+        for sum in [radius, velocity, density, &mut *pressure, &mut *pressure_scatter] {
             *sum /= *mass;
         }
+        // Round-off may take the variance of a uniform shell below zero.
+        *pressure_scatter = (*pressure_scatter - *pressure * *pressure).max(0.0).sqrt();
     }
     shells
 }
