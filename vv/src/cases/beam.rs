@@ -51,13 +51,14 @@ impl Case for Beam {
     }
 
     fn about(&self) -> &'static str {
-        "A steel beam of 5 cm by 0.5 cm by 0.5 cm with free ends. One half stands on a mirror across its \
-         middle and starts to turn about its own centre, 1 m/s at the ends: with its image, that bends \
-         the beam in its symmetric modes, without translation. The deflection, projected on the shape of \
-         the first mode, is fitted by a damped oscillation over one and a half periods. Decay is in \
-         nepers a period. Hourglass is the largest kinetic energy of the hourglass modes over the initial \
-         one. `hourglass-on` resists the hourglass modes, `centring-on` the motion of centroids against \
-         their corners, each with 0.05 of the stiffness of a cell. n counts the cells through the height."
+        "A steel beam of 5 cm by 0.5 cm by 0.5 cm with free ends. One half stands on a mirror across \
+         its middle and starts to turn about its own centre, 1 m/s at the ends: with its image, that \
+         bends the beam in its symmetric modes, without translation. The deflection, projected on the \
+         shape of the first mode, is fitted by a damped oscillation over one and a half periods. Decay \
+         is in nepers a period. Hourglass is the largest kinetic energy of the hourglass modes over \
+         the initial one. `hourglass-on` has the drag against hourglass modes that solids without \
+         strength have, `centring-on` the motion of centroids against their corners, with 0.05 of the \
+         stiffness of a cell. n counts the cells through the height."
     }
 
     fn source(&self) -> &'static str {

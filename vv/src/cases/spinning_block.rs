@@ -50,16 +50,16 @@ impl Case for SpinningBlock {
     }
 
     fn about(&self) -> &'static str {
-        "An elastic copper block of 1 by 0.8 by 0.6 cm spins freely about its shortest axis for a turn, \
-         0.02 rad/us. It starts without the strain of its rotation and so breathes. Energy is the change \
-         of all that is held, over the initial kinetic energy, the residual of the elements included. \
-         Hourglass is the kinetic energy of the four hourglass modes of the corners of every element, \
-         checkerboard that of centroids against the mean of their corners, over the initial kinetic \
-         energy: both vanish in rotation. Growth is the largest of the last quarter of the turn over \
-         the largest of the first. The variant `noise` starts with random velocities of 1 m/s, \
-         `hourglass-on` resists the hourglass modes and `centring-on` the motion of centroids against \
-         their corners, each with 0.05 of the stiffness of a cell. n counts the cells along the longest \
-         edge."
+        "An elastic copper block of 1 by 0.8 by 0.6 cm spins freely about its shortest axis for a \
+         turn, 0.02 rad/us. It starts without the strain of its rotation and so breathes. Energy is \
+         the change of all that is held, over the initial kinetic energy, the residual of the elements \
+         included. Hourglass is the kinetic energy of the four hourglass modes of the corners of every \
+         element, checkerboard that of centroids against the mean of their corners, over the initial \
+         kinetic energy: both vanish in rotation. Growth is the largest of the last quarter of the \
+         turn over the largest of the first. The variant `noise` starts with random velocities of 1 \
+         m/s, `hourglass-on` has the drag against hourglass modes that solids without strength have \
+         and `centring-on` the motion of centroids against their corners, with 0.05 of the stiffness \
+         of a cell. n counts the cells along the longest edge."
     }
 
     fn source(&self) -> &'static str {

@@ -59,14 +59,14 @@ pub(super) const COPPER_ROD: Taylor = Taylor {
     about: "A rod of OFHC copper, 7.62 mm by 25.4 mm, hits a rigid, frictionless wall at 190 m/s. \
             Johnson-Cook strength; no failure. n counts the cells across. Length: from the lowest to \
             the highest node of a live element, the mean over the last quarter of the run. Radii: of \
-            the disc with the area of the faces in one plane of the lattice, which does not see how the \
-            rim of the circle is stepped; faces of dead elements stay as large as they were last \
-            seen live. The reach is the farthest node of a live element from the axis. The final sizes of \
-            the experiment, 0.638 of the length and 1.78 of the diameter, were read in a transcription of \
-            digitised figures, not in the reports themselves: nothing required rests on them. \
-            Variants have half and twice every coefficient of the viscosity; `hourglass-on` resists the \
-            hourglass modes, `centring-on` the motion of centroids against their corners, each with 0.05 \
-            of the stiffness of a cell.",
+            the disc with the area of the faces in one plane of the lattice, which does not see how \
+            the rim of the circle is stepped; faces of dead elements stay as large as they were last \
+            seen live. The reach is the farthest node of a live element from the axis. The final sizes \
+            of the experiment, 0.638 of the length and 1.78 of the diameter, were read in a \
+            transcription of digitised figures, not in the reports themselves: nothing required rests \
+            on them. Variants have half and twice every coefficient of the viscosity; `hourglass-on` \
+            has the drag against hourglass modes that solids without strength have, `centring-on` the \
+            motion of centroids against their corners, with 0.05 of the stiffness of a cell.",
     source: "Johnson and Cook (1983), constants as in `references/materials.toml`, test as in \
              `references/taylor_impact.csv` (bbanerjee/HighRateExptData); equation of state of copper OFHC",
     rod: [0.762, 2.54, 0.019],

@@ -32,18 +32,20 @@ pub(super) const AS_PRINTED: &str = "as-printed";
 pub(super) const EXCHANGED: &str = "exchanged";
 /// Twice the plate.
 pub(super) const WIDE: &str = "wide";
-/// Other linear coefficients of the viscosity than 0.3.
+/// Other linear coefficients of the viscosity than 0.5.
+const VISCOSITY_03: &str = "viscosity-0.3";
 const VISCOSITY_1: &str = "viscosity-1";
 const VISCOSITY_2: &str = "viscosity-2";
 /// The yield function as printed: uniaxial yield at 2.12 Y (gap G3).
 const YIELD_AS_PRINTED: &str = "yield-as-printed";
 
 /// Names of the variants, the plain one first.
-pub(super) const VARIANTS: [&str; 9] = [
+pub(super) const VARIANTS: [&str; 10] = [
     "",
     AS_PRINTED,
     EXCHANGED,
     WIDE,
+    VISCOSITY_03,
     VISCOSITY_1,
     VISCOSITY_2,
     YIELD_AS_PRINTED,
@@ -57,10 +59,11 @@ pub(super) fn words(variant: &str) -> &'static str {
         AS_PRINTED => "Table 4 as printed",
         EXCHANGED => "Table 4 exchanged, not converted",
         WIDE => "twice the plate",
+        VISCOSITY_03 => "linear viscosity 0.3",
         VISCOSITY_1 => "linear viscosity 1",
         VISCOSITY_2 => "linear viscosity 2",
         YIELD_AS_PRINTED => "yield function as printed",
-        control::HOURGLASS => "hourglass modes resisted",
+        control::HOURGLASS => "drag on hourglass modes",
         control::CENTRING => "motion of centroids resisted",
         _ => "Table 4 exchanged and converted",
     }
@@ -104,6 +107,7 @@ fn metal(name: &str, constants: [f64; 5], hardening: Hardening) -> Material {
 /// Choices of a variant.
 fn varied(method: Method, variant: &str) -> Method {
     match variant {
+        VISCOSITY_03 => Method { visc_linear: 0.3, ..method },
         VISCOSITY_1 => Method { visc_linear: 1.0, ..method },
         VISCOSITY_2 => Method { visc_linear: 2.0, ..method },
         YIELD_AS_PRINTED => Method { yield_norm: YieldNorm::AsPrinted, ..method },
