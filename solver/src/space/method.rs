@@ -101,7 +101,7 @@ impl Preset {
             heating: Heating::Pair,
             yield_norm: YieldNorm::Mises,
             viscosity: Viscosity::Limited,
-            visc_linear: 0.5,
+            visc_linear: 0.7,
             visc_quad: 1.0,
             visc_expansion: 0.5,
             visc_volume: 0.0,

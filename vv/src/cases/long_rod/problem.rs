@@ -32,7 +32,7 @@ pub(super) const AS_PRINTED: &str = "as-printed";
 pub(super) const EXCHANGED: &str = "exchanged";
 /// Twice the plate.
 pub(super) const WIDE: &str = "wide";
-/// Other linear coefficients of the viscosity than 0.5.
+/// Other linear coefficients of the viscosity than 0.7.
 const VISCOSITY_03: &str = "viscosity-0.3";
 const VISCOSITY_1: &str = "viscosity-1";
 const VISCOSITY_2: &str = "viscosity-2";

@@ -331,7 +331,7 @@ fn inputs(records: &Records) -> Option<Table> {
         caption: format!(
             "What strength, plate, viscosity and density move, n = {}; changes against the row of the \
              preset in Table 5: `default` exchanged and converted, `paper` as printed. The linear \
-             viscosity of `default` is 0.5, of `paper` 0.3.",
+             viscosity of `default` is 0.7, of `paper` 0.3.",
             SIZES[0]
         ),
         columns,
