@@ -347,7 +347,8 @@ impl Simulation {
         enter(Phase::Contacts);
         self.contacts.work(mesh, mean, self.kick, (&mut sums.rho_rate, &mut sums.heat));
         enter(Phase::Springs);
-        self.spring_work += self.surfaces.work(mesh, mean, self.kick, &mut sums.heat);
+        let of = (mesh, &self.contacts);
+        self.spring_work += self.surfaces.work(of, mean, self.kick, &mut sums.heat);
         enter(Phase::Motion);
         let pass = Motion {
             laws: self.laws(self.kick),

@@ -25,6 +25,8 @@ use join::Joiner;
 use motion::{Free, Motion};
 use search::{Block, CHUNK, Slot};
 
+pub(super) use sort::roomy;
+
 /// Flag of a member that can be in contact with any other.
 pub const EXPOSED: u8 = 1;
 

@@ -81,7 +81,7 @@ fn digit(key: u64, shift: u32, width: u32) -> usize {
 }
 
 /// Length to which a buffer grows that has to hold `n`: an eighth more, so that it seldom grows.
-pub(super) fn roomy<T>(buffer: &mut Vec<T>, n: usize) {
+pub(in crate::space) fn roomy<T>(buffer: &mut Vec<T>, n: usize) {
     if buffer.capacity() < n {
         buffer.reserve(n + n / 8 - buffer.len());
     }

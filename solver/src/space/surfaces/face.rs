@@ -26,16 +26,15 @@ const WARPED: f64 = 0.01;
 /// Least curvature of the square of the distance, over that of a flat face, that the search trusts.
 const CONVEX: f64 = 1e-6;
 
-/// Face of an element.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Face {
-    /// Its corners, in order about the axis that it lies across, from the lowest.
-    pub(super) nodes: [usize; 4],
-}
+/// Corners of the face of an element, in order about the axis that it lies across, from the lowest.
+pub(super) type Nodes = [usize; 4];
+
+/// The same as members.
+pub(super) type Corners = [u32; 4];
 
 /// Calls for every face of the live surface of a body round a node, with the side of its element: twice
 /// the axis that it lies across, and one more if it is the upper one.
-pub(super) fn each_face(mesh: &Mesh, body: usize, at: [i16; 3], mut f: impl FnMut(Face, usize)) {
+pub(super) fn each_face(mesh: &Mesh, body: usize, at: [i16; 3], mut f: impl FnMut(Nodes, usize)) {
     let own = &mesh.bodies[body];
     let mut live = 0u8;
     for (octant, cell) in own.lattice.cells_round(at) {
@@ -54,14 +53,13 @@ pub(super) fn each_face(mesh: &Mesh, body: usize, at: [i16; 3], mut f: impl FnMu
 }
 
 /// The face across an axis with this node as its lowest corner.
-pub(super) fn face_across(body: &Body, lowest: [i16; 3], axis: usize) -> Face {
-    let nodes = [[0, 0], [2, 0], [2, 2], [0, 2]].map(|step: [i16; 2]| {
+pub(super) fn face_across(body: &Body, lowest: [i16; 3], axis: usize) -> Nodes {
+    [[0, 0], [2, 0], [2, 2], [0, 2]].map(|step: [i16; 2]| {
         let mut node = lowest;
         node[(axis + 1) % 3] += step[0];
         node[(axis + 2) % 3] += step[1];
         body.nodes.start + body.lattice.node(node) as usize
-    });
-    Face { nodes }
+    })
 }
 
 /// Shares of the corners of a face in a point of it.
@@ -69,22 +67,26 @@ pub(super) fn bilinear([u, v]: [f64; 2]) -> [f64; 4] {
     [(1.0 - u) * (1.0 - v), u * (1.0 - v), u * v, (1.0 - u) * v]
 }
 
-/// Where the corners of a face are, if that is known: those of live surfaces are.
-pub(super) fn corners_of(contacts: &Contacts, face: &Face) -> Option<[[f64; 3]; 4]> {
-    let mut corners = [[0.0; 3]; 4];
-    for (corner, &node) in corners.iter_mut().zip(&face.nodes) {
-        *corner = contacts.position(contacts.find(node)? as u32);
+/// The members that the corners of a face are, if they are: those of live surfaces are.
+pub(super) fn corners_of(contacts: &Contacts, nodes: &Nodes) -> Option<Corners> {
+    let mut corners = [0; 4];
+    for (corner, &node) in corners.iter_mut().zip(nodes) {
+        *corner = contacts.find(node)? as u32;
     }
     Some(corners)
 }
 
-/// Where a mean of particles is, with their shares, if that is known.
-pub(super) fn place_of(contacts: &Contacts, own: &[(usize, f64); 4]) -> Option<[f64; 3]> {
-    let mut x = [0.0; 3];
-    for &(i, share) in own.iter().filter(|own| own.1 > 0.0) {
-        x = plus(x, share, contacts.position(contacts.find(i)? as u32));
-    }
-    Some(x)
+/// Where they are.
+#[inline(always)]
+pub(super) fn places_of(contacts: &Contacts, corners: &Corners) -> [[f64; 3]; 4] {
+    corners.map(|corner| contacts.position(corner))
+}
+
+/// The mean of places with these shares.
+#[inline(always)]
+pub(super) fn mean_of(places: &[[f64; 3]; 4], shares: &[f64; 4]) -> [f64; 3] {
+    let shares = shares.iter().zip(places).filter(|(share, _)| **share > 0.0);
+    shares.fold([0.0; 3], |x, (&share, &place)| plus(x, share, place))
 }
 
 /// The part of a face that one of its points acts for.
