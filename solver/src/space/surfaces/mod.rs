@@ -277,11 +277,15 @@ impl Surfaces {
             for point in 0..start.points() {
                 let Some((faces, other)) = shell.seen(contacts, lookout, point) else { continue };
                 let x = mean_of(&places, &start.shares(point));
-                let Some((face, near)) = nearest_face(contacts, x, faces) else { continue };
+                let slot = start.slot + point as u32;
+                while before.next_if(|old| old.slot < slot).is_some() {}
+                let old = before.peek().filter(|old| old.slot == slot);
+                let likely = old.map(|old| old.face);
+                let Some((face, near)) = nearest_face(contacts, x, faces, likely) else {
+                    continue;
+                };
                 let mut spring = Spring::new((start, from), point, (face, other), &near);
                 let own = &mut spring.past;
-                while before.next_if(|old| old.slot < own.slot).is_some() {}
-                let old = before.peek().filter(|old| old.slot == own.slot);
                 let stand = old.map_or(0.0, |old| old.stand);
                 let full = full_stand(mesh, spring.bodies);
                 own.stand = if stand < CLOSE * full {
@@ -330,18 +334,29 @@ fn resistance(
     (0.5 * spring.past.area * impedance, sound)
 }
 
-/// The nearest point of some faces.
+/// The nearest point of some faces, the first of equals. It is sought first on a face where it is likely.
 fn nearest_face(
     contacts: &Contacts,
     x: [f64; 3],
-    faces: impl Iterator<Item = Corners>,
+    faces: impl Iterator<Item = Corners> + Clone,
+    likely: Option<Corners>,
 ) -> Option<(Corners, Nearest)> {
-    let mut best: Option<(Corners, Nearest)> = None;
-    for face in faces {
+    let faces = faces.enumerate();
+    let mut best = faces.clone().find(|&(_, face)| Some(face) == likely).map(|(place, face)| {
         let near = Nearest::of(x, places_of(contacts, &face));
-        if best.as_ref().is_none_or(|(_, best)| near.square < best.square) {
-            best = Some((face, near));
+        (near, place, face)
+    });
+    for (place, face) in faces {
+        let (limit, known) = best.map_or((f64::INFINITY, None), |(n, at, _)| (n.square, Some(at)));
+        if known == Some(place) {
+            continue;
         }
+        let near = Nearest::within(x, places_of(contacts, &face), limit);
+        let earlier = known.is_some_and(|known| place < known);
+        best = near
+            .filter(|near| near.square < limit || near.square == limit && earlier)
+            .map(|near| (near, place, face))
+            .or(best);
     }
-    best.filter(|(_, near)| near.square > 0.0)
+    best.filter(|(near, ..)| near.square > 0.0).map(|(near, _, face)| (face, near))
 }

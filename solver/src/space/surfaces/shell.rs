@@ -92,7 +92,7 @@ impl Shell {
         contacts: &Contacts,
         lookout: &Lookout,
         point: usize,
-    ) -> Option<(impl Iterator<Item = Corners> + use<'a>, usize)> {
+    ) -> Option<(impl Iterator<Item = Corners> + Clone + use<'a>, usize)> {
         let ahead = lookout.ahead[point];
         let ahead = if ahead == NONE { lookout.first } else { ahead };
         let node = self.nearest[ahead as usize];
