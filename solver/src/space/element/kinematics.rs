@@ -39,25 +39,22 @@ pub(super) struct Kinematics<F> {
 /// `F^T F`.
 #[inline(always)]
 pub(super) fn right_cauchy_green<F: Lanes>(f: &[F; 9]) -> Sym<F> {
-    let mut c = [F::zero(); 6];
-    for (c, [i, j]) in c.iter_mut().zip([[0, 0], [1, 1], [2, 2], [0, 1], [0, 2], [1, 2]]) {
-        *c = f[i] * f[j] + f[3 + i] * f[3 + j] + f[6 + i] * f[6 + j];
-    }
-    c
+    each!(k in 6 => {
+        let [i, j] = [[0, 0], [1, 1], [2, 2], [0, 1], [0, 2], [1, 2]][k];
+        f[i] * f[j] + f[3 + i] * f[3 + j] + f[6 + i] * f[6 + j]
+    })
 }
 
 impl<F: Lanes> Kinematics<F> {
     #[inline(always)]
     pub(super) fn new(u: &[V3<F>; 9], body: &Body) -> Self {
         let along = gradient(u, body);
-        let mut f = [F::zero(); 9];
-        for (row, axis) in body.lattice.axes.iter().enumerate() {
-            for column in 0..3 {
-                let g = &along[column];
-                let b = g[0] * axis[0] + g[1] * axis[1] + g[2] * axis[2];
-                f[3 * row + column] = b + if row == column { 1.0 } else { 0.0 };
-            }
-        }
+        let axes = &body.lattice.axes;
+        let f = each!(k in 9 => {
+            let (g, axis) = (&along[k % 3], &axes[k / 3]);
+            let b = g[0] * axis[0] + g[1] * axis[1] + g[2] * axis[2];
+            b + if k / 3 == k % 3 { 1.0 } else { 0.0 }
+        });
         let (a, b, c) = ([f[0], f[1], f[2]], [f[3], f[4], f[5]], [f[6], f[7], f[8]]);
         let (bc, ca, ab) = (cross(&b, &c), cross(&c, &a), cross(&a, &b));
         let jacobian = dot(&a, &bc);
@@ -75,7 +72,7 @@ impl<F: Lanes> Kinematics<F> {
     #[inline(always)]
     pub(super) fn shear_strain(&self) -> Sym<F> {
         let q = self.root * self.root * 0.5;
-        each!(k => q * self.c[k] - if k < 3 { 0.5 } else { 0.0 })
+        each!(k in 6 => q * self.c[k] - if k < 3 { 0.5 } else { 0.0 })
     }
 
     /// Mean squared stretch without the volume, times the compression's.
@@ -110,27 +107,27 @@ impl<F: Lanes> Kinematics<F> {
         out
     }
 
-    /// Adds the corner forces of the shear stress, `-V_o P grad N`.
+    /// The corner forces of the shear stress, `-V_o P grad N`.
     #[inline(always)]
-    pub(super) fn forces(&self, stress: &Sym<F>, body: &Body, live: Mask, force: &mut [V3<F>; 9]) {
-        let size = body.lattice.size;
+    pub(super) fn forces(&self, stress: &Sym<F>, body: &Body, live: Mask) -> [V3<F>; 9] {
         let piola = self.piola(stress, body);
-        for d in 0..3 {
-            let mut along = [F::zero(); 3];
-            for (axis, along) in along.iter_mut().enumerate() {
-                let scale = -0.25 * body.cell_volume / size[axis];
-                *along = (piola[3 * d + axis] * scale).keep(live);
-            }
+        let scale = each!(axis in 3 => -0.25 * body.cell_volume / body.lattice.size[axis]);
+        let by_way = each!(d in 3 => {
+            let along = each!(axis in 3 => (piola[3 * d + axis] * scale[axis]).keep(live));
             let (plus, minus) = (along[1] + along[0], along[1] - along[0]);
             let (up, down) = (along[2], -along[2]);
-            force[0][d] += down - plus;
-            force[1][d] += down - minus;
-            force[2][d] += down + minus;
-            force[3][d] += down + plus;
-            force[4][d] += up - plus;
-            force[5][d] += up - minus;
-            force[6][d] += up + minus;
-            force[7][d] += up + plus;
-        }
+            [
+                down - plus,
+                down - minus,
+                down + minus,
+                down + plus,
+                up - plus,
+                up - minus,
+                up + minus,
+                up + plus,
+                F::zero(),
+            ]
+        });
+        each!(slot in 9 => [by_way[0][slot], by_way[1][slot], by_way[2][slot]])
     }
 }
