@@ -14,7 +14,7 @@ use super::kernel::Kernel;
 use super::lattice::NONE;
 use super::mesh::Mesh;
 use super::method::Method;
-use super::near::{DEBRIS, EXPOSED, PairList, Points, Reach};
+use super::near::{DEBRIS, EXPOSED, PairList, Points, Reach, put};
 use super::surfaces;
 
 /// Pairs that one task evaluates.
@@ -205,7 +205,7 @@ impl Contacts {
         contacts
     }
 
-    /// Makes room for so many members.
+    /// Makes room for so many more members.
     fn reserve(&mut self, n: usize) {
         self.members.reserve_exact(n);
         self.position.iter_mut().for_each(|x| x.reserve_exact(n));
@@ -241,6 +241,9 @@ impl Contacts {
         let (body, place) = mesh.place(i);
         let member = self.members.len();
         self.changed = true;
+        if member == self.members.capacity() {
+            self.reserve((member + member / 8).min(mesh.particles) - member);
+        }
         self.index[i] = member as u32;
         self.members.push(i as u32);
         let x = mesh.bodies[body].lattice.position(place);
@@ -483,7 +486,9 @@ impl Contacts {
                     continue;
                 }
                 let bodies = [body[a] as usize, body[b] as usize];
-                found.extend(view.contact([members[a], members[b]], r, bodies));
+                if let Some(active) = view.contact([members[a], members[b]], r, bodies) {
+                    put(found, active);
+                }
             }
         });
         for contact in self.blocks.iter().flatten() {
@@ -540,6 +545,7 @@ impl Contacts {
     pub fn bytes(&self) -> usize {
         let blocks: usize = self.blocks.iter().map(Vec::capacity).sum();
         self.members.capacity() * (4 + 24 + 4 + 1 + 2 + 6)
+            + 4 * self.index.capacity()
             + self.list.bytes()
             + self.kernel.as_ref().map_or(0, Kernel::bytes)
             + 16 * self.terms.iter().map(Vec::capacity).sum::<usize>()
@@ -599,7 +605,7 @@ impl View<'_> {
         }
         let per = |k: usize, i: usize| {
             let rho = self.derived.rho[i];
-            row[k] * self.mesh.mass[i] * self.derived.pressure[i] / (rho * rho)
+            row[k] * self.mesh.mass(i) * self.derived.pressure[i] / (rho * rho)
         };
         let mut active = Active {
             pair,

@@ -70,6 +70,17 @@ pub trait Lanes:
         Self::of(F8(out))
     }
 
+    /// The whole numbers from `at` on.
+    #[inline(always)]
+    #[must_use]
+    fn whole(from: &[u8], at: usize) -> Self {
+        let mut out = [0.0; LANES];
+        for (out, &n) in out.iter_mut().zip(&from[at..at + LANES]) {
+            *out = f64::from(n);
+        }
+        Self::of(F8(out))
+    }
+
     /// The numbers from `at` on, zeros beyond the last.
     #[inline(always)]
     #[must_use]

@@ -47,6 +47,8 @@ pub struct Body {
     pub length: f64,
     /// Volume of a cell.
     pub cell_volume: f64,
+    /// Mass of a sixteenth of a cell.
+    pub sixteenth: f64,
     /// The corners of a cell from its centre, slot by slot.
     pub corners: [[f64; 3]; 8],
     /// Reference volumes of the six pyramids, by the arithmetic of the elements.
@@ -149,9 +151,8 @@ pub struct Mesh {
     pub particles: usize,
     /// Elements.
     pub elements: usize,
-    /// Mass of every particle.
-    pub mass: Vec<f64>,
-    /// Cells round a node, or the share of a centroid: mass in sixteenths of a cell.
+    /// Cells round a node, or the share of a centroid: mass in sixteenths of a cell; of inert
+    /// particles one.
     pub share: Vec<u8>,
     /// Reference volume over the reference volume of live elements; zero without live elements.
     pub ratio: Vec<f64>,
@@ -183,8 +184,7 @@ impl Mesh {
             len,
             particles: lattices.iter().map(|l| l.nodes.len() + l.centroids.len()).sum(),
             elements: lattices.iter().map(|l| l.centroids.len()).sum(),
-            mass: vec![1.0; len],
-            share: vec![0; len],
+            share: vec![1; len],
             ratio: vec![0.0; len],
             areas: Vec::new(),
             piece_at: vec![u32::MAX; len / LANES],
@@ -212,12 +212,10 @@ impl Mesh {
     }
 
     fn weigh(&mut self, body: &Body) {
-        let unit = body.rho_0 * body.cell_volume / 16.0;
         let shares = body.lattice.share.iter().copied();
         let shares = shares.chain(std::iter::repeat_n(CENTROID_SHARE, body.centroids.len()));
         for (i, share) in body.nodes.clone().chain(body.centroids.clone()).zip(shares) {
             self.share[i] = share;
-            self.mass[i] = f64::from(share) * unit;
             self.ratio[i] = 1.0;
         }
     }
@@ -304,7 +302,16 @@ impl Mesh {
     #[must_use]
     pub fn bytes(&self) -> usize {
         let lattices: usize = self.bodies.iter().map(|body| body.lattice.bytes()).sum();
-        16 * self.mass.capacity() + self.share.capacity() + lattices
+        let pieces = 4 * self.piece_at.capacity();
+        8 * self.ratio.capacity() + self.share.capacity() + pieces + lattices
+    }
+
+    /// Mass of a particle.
+    #[inline(always)]
+    #[must_use]
+    pub fn mass(&self, i: usize) -> f64 {
+        let body = &self.bodies[self.pieces[self.piece_of(i)].body];
+        f64::from(self.share[i]) * body.sixteenth
     }
 
     /// Piece of a particle.
@@ -418,6 +425,7 @@ impl Body {
             rho_0: material.density,
             length: lattice.contact_length(),
             cell_volume: lattice.cell_volume(),
+            sixteenth: material.density * lattice.cell_volume() / 16.0,
             pyramids,
             per_pyramid: pyramids.map(|volume| 1.0 / volume),
             bond_areas: [0.75, 0.5f64.powf(2.0 / 3.0)]

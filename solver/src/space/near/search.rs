@@ -6,6 +6,7 @@
 
 use super::grid::{Grid, Member};
 use super::held;
+use super::sort::put;
 use super::windows::Windows;
 
 /// Cells per chunk.
@@ -183,7 +184,7 @@ impl Slot {
                 hits &= hits - 1;
                 let pair = [member.id.min(other), member.id.max(other)];
                 if keep(pair[0], pair[1]) {
-                    self.pairs.push(pair);
+                    put(&mut self.pairs, pair);
                 }
             }
         }

@@ -20,7 +20,7 @@ use super::columns::{Derived, State, Sums};
 use super::contacts::{Contacts, steepness};
 use super::mesh::Mesh;
 use super::method::Method;
-use super::near::roomy;
+use super::near::{put, roomy};
 
 /// Distance at which a surface is felt, in edges of cells.
 const STAND: f64 = 0.5;
@@ -158,7 +158,7 @@ impl Surfaces {
                     add(contacts.particle(corner), -tension, slope);
                 }
                 spring.slopes = self.slopes.len() as u32;
-                self.slopes.push(slopes);
+                put(&mut self.slopes, slopes);
             }
         }
         [rate, heat]
@@ -257,7 +257,7 @@ impl Surfaces {
             return 0.0;
         }
         self.found = true;
-        self.renew((mesh, contacts), |i, energy| u[i] += energy / mesh.mass[i])
+        self.renew((mesh, contacts), |i, energy| u[i] += energy / mesh.mass(i))
     }
 
     /// Finds the springs at the present positions, and tells of those that are too short to be one. The
@@ -305,7 +305,7 @@ impl Surfaces {
                 if spring.past.stand < CLOSE * full {
                     short(&spring);
                 } else {
-                    springs.push(spring);
+                    put(springs, spring);
                 }
             }
         }

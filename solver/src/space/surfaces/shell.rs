@@ -7,7 +7,7 @@ use super::spring::Start;
 use crate::space::contacts::Contacts;
 use crate::space::lattice::NONE;
 use crate::space::mesh::Mesh;
-use crate::space::near::roomy;
+use crate::space::near::{put, roomy};
 
 /// Nothing found yet.
 const UNKNOWN: u32 = u32::MAX;
@@ -73,14 +73,16 @@ impl Shell {
                     best = (square, node);
                 }
             }
-            nearest.push(best.1);
+            put(nearest, best.1);
             if let Some(round) = round.get_mut(best.1 as usize).filter(|at| **at == UNKNOWN) {
                 *round = faces.len() as u32;
                 let node = contacts.member(best.1 as usize);
                 each_face(mesh, node.body, node.place, |nodes, _| {
-                    faces.extend(corners_of(contacts, &nodes));
+                    if let Some(corners) = corners_of(contacts, &nodes) {
+                        put(faces, corners);
+                    }
                 });
-                faces.push(END);
+                put(faces, END);
             }
         }
     }
@@ -109,8 +111,9 @@ impl Shell {
             let particles = [a, b].map(|at| contacts.particle(at));
             if meet(mesh, particles, [a, b].map(|at| contacts.body(at))) {
                 let held = particles.map(|i| mesh.held(i));
-                self.ways.extend(held[1].then_some([a, b]));
-                self.ways.extend(held[0].then_some([b, a]));
+                for (way, _) in [([a, b], held[1]), ([b, a], held[0])].iter().filter(|way| way.1) {
+                    put(&mut self.ways, *way);
+                }
             }
         }
         self.ways.sort_unstable();
@@ -121,14 +124,14 @@ impl Shell {
         let Self { ways, lookouts, nearest, .. } = self;
         // For now the members in front of something themselves.
         nearest.clear();
-        nearest.extend(ways.chunk_by(|a, b| a[0] == b[0]).map(|ways| ways[0][0]));
+        ways.chunk_by(|a, b| a[0] == b[0]).for_each(|ways| put(nearest, ways[0][0]));
         lookouts.clear();
         let find = |corner: u32| nearest.binary_search(&corner).map_or(NONE, |at| at as u32);
         for (first, &member) in (0..).zip(&*nearest) {
             let one = contacts.member(member as usize);
             if !mesh.held(one.particle) {
                 let start = Start::loose(member as usize, one.body);
-                lookouts.push(Lookout { start, ahead: [first; 4], first });
+                put(lookouts, Lookout { start, ahead: [first; 4], first });
                 continue;
             }
             each_face(mesh, one.body, one.place, |nodes, side| {
@@ -137,7 +140,7 @@ impl Shell {
                 // Of the corners in front of something the first looks after the face.
                 if ahead.iter().find(|&&at| at != NONE) == Some(&first) {
                     let start = Start::face(corners, side / 2, one.body);
-                    lookouts.push(Lookout { start, ahead, first });
+                    put(lookouts, Lookout { start, ahead, first });
                 }
             });
         }

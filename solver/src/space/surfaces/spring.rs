@@ -103,7 +103,7 @@ impl Start {
     /// Area that a loose particle acts for: what one of its mass has of a flat surface.
     pub(super) fn loose_area(&self, mesh: &Mesh, contacts: &Contacts) -> f64 {
         let body = &mesh.bodies[self.body as usize];
-        4.0 * mesh.mass[contacts.particle(self.corners[0])] / (body.rho_0 * body.edge())
+        4.0 * mesh.mass(contacts.particle(self.corners[0])) / (body.rho_0 * body.edge())
     }
 }
 
@@ -196,7 +196,7 @@ impl Spring {
     pub(super) fn inertia(&self, (mesh, contacts): (&Mesh, &Contacts), start: &Start) -> f64 {
         if start.is_loose() {
             let shares = self.shares(contacts, start);
-            return shares.map(|(i, share)| share * share / mesh.mass[i]).sum();
+            return shares.map(|(i, share)| share * share / mesh.mass(i)).sum();
         }
         let bodies = self.bodies.map(|body| &mesh.bodies[body as usize]);
         let per_area = bodies.map(|body| 4.0 / (body.rho_0 * body.edge()));
