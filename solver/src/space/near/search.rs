@@ -6,7 +6,6 @@
 
 use super::grid::{Grid, Member};
 use super::held;
-use super::sort::put;
 use super::windows::Windows;
 
 /// Cells per chunk.
@@ -184,7 +183,7 @@ impl Slot {
                 hits &= hits - 1;
                 let pair = [member.id.min(other), member.id.max(other)];
                 if keep(pair[0], pair[1]) {
-                    put(&mut self.pairs, pair);
+                    self.pairs.push(pair);
                 }
             }
         }
