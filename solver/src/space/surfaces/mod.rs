@@ -274,7 +274,7 @@ impl Surfaces {
         for (from, lookout) in shell.lookouts.iter().enumerate() {
             let Lookout { start, .. } = lookout;
             let places = places_of(contacts, &start.corners);
-            for point in 0..start.points() {
+            for (point, at) in POINTS.into_iter().enumerate().take(start.points()) {
                 let Some((faces, other)) = shell.seen(contacts, lookout, point) else { continue };
                 let x = mean_of(&places, &start.shares(point));
                 let slot = start.slot + point as u32;
@@ -296,7 +296,7 @@ impl Surfaces {
                 if start.is_loose() {
                     own.area = start.loose_area(mesh, contacts);
                 } else {
-                    let part = Part::of(places, POINTS[point]);
+                    let part = Part::of(places, at);
                     own.area = part.area;
                     if !spring.faces(&part) {
                         continue;
