@@ -14,7 +14,7 @@ use super::kernel::Kernel;
 use super::lattice::NONE;
 use super::mesh::Mesh;
 use super::method::Method;
-use super::near::{DEBRIS, EXPOSED, PairList, Points, Reach};
+use super::near::{DEBRIS, EXPOSED, PairList, Points, Reach, put};
 use super::surfaces;
 
 /// Pairs that one task evaluates.
@@ -52,8 +52,8 @@ pub struct Contacts {
     /// Whether elements carry the pressure of the particles that they hold.
     volumes: bool,
     terms: Vec<Vec<[f64; 2]>>,
-    /// Pairs of the list that a surface may keep apart.
-    facing: Vec<[u32; 2]>,
+    /// Changes of the list so far.
+    changes: u64,
     /// Whether the list must be renewed whatever has moved.
     changed: bool,
     longest: f64,
@@ -205,7 +205,7 @@ impl Contacts {
         contacts
     }
 
-    /// Makes room for so many members.
+    /// Makes room for so many more members.
     fn reserve(&mut self, n: usize) {
         self.members.reserve_exact(n);
         self.position.iter_mut().for_each(|x| x.reserve_exact(n));
@@ -241,6 +241,9 @@ impl Contacts {
         let (body, place) = mesh.place(i);
         let member = self.members.len();
         self.changed = true;
+        if member == self.members.capacity() {
+            self.reserve((member + member / 8).min(mesh.particles) - member);
+        }
         self.index[i] = member as u32;
         self.members.push(i as u32);
         let x = mesh.bodies[body].lattice.position(place);
@@ -261,9 +264,21 @@ impl Contacts {
         particles.zip(bodies).zip(&self.position[axis]).map(|((i, body), &x)| (i, body, x))
     }
 
-    /// Pairs of members that a surface may keep apart.
-    pub(super) fn facing(&self) -> &[[u32; 2]] {
-        &self.facing
+    /// Pairs of the list that both can touch any other.
+    pub(super) fn exposed_pairs(&self) -> impl Iterator<Item = [u32; 2]> + '_ {
+        let exposed = |at: u32| self.flags[at as usize] & EXPOSED != 0;
+        self.list.pairs().iter().copied().filter(move |&[a, b]| exposed(a) && exposed(b))
+    }
+
+    /// How often the list has changed.
+    pub(super) fn changes(&self) -> u64 {
+        self.changes
+    }
+
+    /// Body of a member.
+    #[inline(always)]
+    pub(super) fn body(&self, at: u32) -> usize {
+        self.body[at as usize] as usize
     }
 
     /// A member.
@@ -370,24 +385,13 @@ impl Contacts {
         let Self { list, flags, body, place, volumes, .. } = self;
         let keep = may_touch(mesh, (flags, body), volumes.then_some(place));
         list.extend(|member| flags[member as usize] & FRESH != 0, keep);
-        self.settle(mesh);
+        self.settle();
     }
 
     /// What follows from a list that has changed.
-    fn settle(&mut self, mesh: &Mesh) {
+    fn settle(&mut self) {
         self.flags.iter_mut().for_each(|flags| *flags &= !FRESH);
-        self.facing.clear();
-        if !self.volumes || mesh.bodies.len() == 1 {
-            return;
-        }
-        let Self { list, flags, body, members, facing, .. } = self;
-        let apart = |&&[a, b]: &&[u32; 2]| {
-            let pair = [a as usize, b as usize];
-            let exposed = flags[pair[0]] & flags[pair[1]] & EXPOSED != 0;
-            let of = |column: &[u32]| pair.map(|k| column[k] as usize);
-            exposed && surfaces::meet(mesh, of(members), pair.map(|k| body[k] as usize))
-        };
-        facing.extend(list.pairs().iter().filter(apart));
+        self.changes += 1;
     }
 
     /// Makes the list anew from the present positions.
@@ -399,7 +403,7 @@ impl Contacts {
         let factor = method.reach().max(surfaces);
         let reach = Reach { factor, skin: SKIN * self.longest };
         self.list.rebuild(&points, reach, may_touch(mesh, (&self.flags, &self.body), lattice));
-        self.settle(mesh);
+        self.settle();
     }
 
     /// What must outlast a restart.
@@ -492,7 +496,9 @@ impl Contacts {
                     continue;
                 }
                 let bodies = [body[a] as usize, body[b] as usize];
-                found.extend(view.contact([members[a], members[b]], r, bodies));
+                if let Some(active) = view.contact([members[a], members[b]], r, bodies) {
+                    put(found, active);
+                }
             }
         });
         for contact in self.blocks.iter().flatten() {
@@ -549,8 +555,8 @@ impl Contacts {
     pub fn bytes(&self) -> usize {
         let blocks: usize = self.blocks.iter().map(Vec::capacity).sum();
         self.members.capacity() * (4 + 24 + 4 + 1 + 2 + 6)
+            + 4 * self.index.capacity()
             + self.list.bytes()
-            + 8 * self.facing.capacity()
             + self.kernel.as_ref().map_or(0, Kernel::bytes)
             + 16 * self.terms.iter().map(Vec::capacity).sum::<usize>()
             + blocks * std::mem::size_of::<Active>()
@@ -609,7 +615,7 @@ impl View<'_> {
         }
         let per = |k: usize, i: usize| {
             let rho = self.derived.rho[i];
-            row[k] * self.mesh.mass[i] * self.derived.pressure[i] / (rho * rho)
+            row[k] * self.mesh.mass(i) * self.derived.pressure[i] / (rho * rho)
         };
         let mut active = Active {
             pair,

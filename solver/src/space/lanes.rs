@@ -70,6 +70,17 @@ pub trait Lanes:
         Self::of(F8(out))
     }
 
+    /// The whole numbers from `at` on.
+    #[inline(always)]
+    #[must_use]
+    fn whole(from: &[u8], at: usize) -> Self {
+        let mut out = [0.0; LANES];
+        for (out, &n) in out.iter_mut().zip(&from[at..at + LANES]) {
+            *out = f64::from(n);
+        }
+        Self::of(F8(out))
+    }
+
     /// The numbers from `at` on, zeros beyond the last.
     #[inline(always)]
     #[must_use]
@@ -177,17 +188,19 @@ fn add_last(values: &F8, to: &mut [f64], at: usize) {
     }
 }
 
-/// An array of values by the index. (Closures are not always inlined into wide functions, and then
-/// call every instruction.)
+/// An array of so many values by the index, written out: no memory is cleared first. (Closures are not
+/// always inlined into wide functions, and then call every instruction.)
 macro_rules! each {
-    ($k:ident => $value:expr) => { each!($k => $value => Lanes::zero()) };
-    ($k:ident => $value:expr => $nothing:expr) => {{
-        let mut out = [$nothing; _];
-        for ($k, out) in out.iter_mut().enumerate() {
-            *out = $value;
-        }
-        out
-    }};
+    ($k:ident in 3 => $value:expr) => { each!($k of [0, 1, 2] => $value) };
+    ($k:ident in 4 => $value:expr) => { each!($k of [0, 1, 2, 3] => $value) };
+    ($k:ident in 6 => $value:expr) => { each!($k of [0, 1, 2, 3, 4, 5] => $value) };
+    ($k:ident in 9 => $value:expr) => { each!($k of [0, 1, 2, 3, 4, 5, 6, 7, 8] => $value) };
+    ($k:ident of [$($index:literal),*] => $value:expr) => {
+        [$({
+            let $k: usize = $index;
+            $value
+        }),*]
+    };
 }
 pub(super) use each;
 

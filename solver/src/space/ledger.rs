@@ -181,7 +181,7 @@ impl Simulation {
         let body = &self.mesh.bodies[k];
         let mut h = Holdings::default();
         for i in body.nodes.clone().chain(body.centroids.clone()) {
-            let (m, x, v) = (self.mesh.mass[i], self.position(i), self.velocity(i));
+            let (m, x, v) = (self.mesh.mass(i), self.position(i), self.velocity(i));
             let p = v.map(|v| m * v);
             let l = super::lattice::cross(x, p);
             let size = |a: [f64; 3]| a.iter().map(|a| a * a).sum::<f64>();

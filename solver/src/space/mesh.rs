@@ -48,6 +48,8 @@ pub struct Body {
     pub length: f64,
     /// Volume of a cell; the mean of mapped ones.
     pub cell_volume: f64,
+    /// Mass of a sixteenth of a cell.
+    pub sixteenth: f64,
     /// Its cells, if they are not all alike: they have shapes of their own then, and their particles
     /// masses of their own.
     pub mapped: Mapped,
@@ -152,10 +154,11 @@ pub struct Mesh {
     pub particles: usize,
     /// Elements.
     pub elements: usize,
-    /// Mass of every particle.
-    pub mass: Vec<f64>,
-    /// Cells round a node, or the share of a centroid: mass in sixteenths of a cell.
+    /// Cells round a node, or the share of a centroid: mass in sixteenths of a cell; of inert
+    /// particles one.
     pub share: Vec<u8>,
+    /// Masses, if a body has mapped cells; empty otherwise, where they follow from the shares.
+    pub masses: Vec<f64>,
     /// Reference volume over the reference volume of live elements; zero without live elements.
     pub ratio: Vec<f64>,
     /// `V_o^(2/3)` by share, body by body.
@@ -186,8 +189,8 @@ impl Mesh {
             len,
             particles: lattices.iter().map(|l| l.nodes.len() + l.centroids.len()).sum(),
             elements: lattices.iter().map(|l| l.centroids.len()).sum(),
-            mass: vec![1.0; len],
-            share: vec![0; len],
+            share: vec![1; len],
+            masses: vec![1.0; if lattices.iter().any(Lattice::is_mapped) { len } else { 0 }],
             ratio: vec![0.0; len],
             areas: Vec::new(),
             piece_at: vec![u32::MAX; len / LANES],
@@ -215,13 +218,17 @@ impl Mesh {
     }
 
     fn weigh(&mut self, body: &Body) {
-        let unit = body.rho_0 * body.cell_volume / 16.0;
         let shares = body.lattice.share.iter().copied();
         let shares = shares.chain(std::iter::repeat_n(CENTROID_SHARE, body.centroids.len()));
         for (i, share) in body.nodes.clone().chain(body.centroids.clone()).zip(shares) {
             self.share[i] = share;
-            self.mass[i] = f64::from(share) * unit;
             self.ratio[i] = 1.0;
+        }
+        if self.masses.is_empty() {
+            return;
+        }
+        for i in body.nodes.clone().chain(body.centroids.clone()) {
+            self.masses[i] = f64::from(self.share[i]) * body.sixteenth;
         }
         if body.mapped.is_empty() {
             return;
@@ -231,10 +238,10 @@ impl Mesh {
             // From the node the cell lies in this octant: the node is its opposite corner.
             let volume: f64 =
                 shares.map(|(octant, cell)| body.mapped.share(cell as usize, 7 - octant)).sum();
-            self.mass[body.nodes.start + k] = body.rho_0 * volume;
+            self.masses[body.nodes.start + k] = body.rho_0 * volume;
         }
         for cell in 0..body.mapped.len() {
-            self.mass[body.centroids.start + cell] = 0.5 * body.rho_0 * body.mapped.volume(cell);
+            self.masses[body.centroids.start + cell] = 0.5 * body.rho_0 * body.mapped.volume(cell);
         }
     }
 
@@ -315,7 +322,7 @@ impl Mesh {
                 part(f64::from(self.share[i]), live.map(|_| 1.0).sum())
             } else {
                 let share = |(octant, cell)| own.mapped.share(cell as usize, 7 - octant);
-                part(self.mass[i] / own.rho_0, live.map(share).sum())
+                part(self.masses[i] / own.rho_0, live.map(share).sum())
             };
         }
     }
@@ -325,7 +332,20 @@ impl Mesh {
     pub fn bytes(&self) -> usize {
         let lattices: usize = self.bodies.iter().map(|body| body.lattice.bytes()).sum();
         let mapped: usize = self.bodies.iter().map(|body| body.mapped.bytes()).sum();
-        16 * self.mass.capacity() + self.share.capacity() + lattices + mapped
+        let pieces = 4 * self.piece_at.capacity();
+        let own = 8 * (self.ratio.capacity() + self.masses.capacity());
+        own + self.share.capacity() + pieces + lattices + mapped
+    }
+
+    /// Mass of a particle.
+    #[inline(always)]
+    #[must_use]
+    pub fn mass(&self, i: usize) -> f64 {
+        if let Some(&mass) = self.masses.get(i) {
+            return mass;
+        }
+        let body = &self.bodies[self.pieces[self.piece_of(i)].body];
+        f64::from(self.share[i]) * body.sixteenth
     }
 
     /// Piece of a particle.
@@ -445,6 +465,7 @@ impl Body {
             rho_0: material.density,
             length: contact_length(cell_volume),
             cell_volume,
+            sixteenth: material.density * cell_volume / 16.0,
             mapped,
             pyramids,
             per_pyramid: pyramids.map(|volume| 1.0 / volume),

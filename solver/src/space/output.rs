@@ -66,7 +66,7 @@ impl Simulation {
         Particle {
             id,
             body: self.mesh.place(i).0,
-            mass: self.mesh.mass[i],
+            mass: self.mesh.mass(i),
             position: self.position(i),
             velocity: self.velocity(i),
             rho: self.derived.rho[i],

@@ -346,12 +346,13 @@ impl Simulation {
         let force = [&sums.fx, &sums.fy, &sums.fz];
         let mean = |i: usize| {
             let v = [state.vx[i], state.vy[i], state.vz[i]];
-            std::array::from_fn(|d| v[d] + half / mesh.mass[i] * force[d][i])
+            std::array::from_fn(|d| v[d] + half / mesh.mass(i) * force[d][i])
         };
         enter(Phase::Contacts);
         self.contacts.work(mesh, mean, self.kick, (&mut sums.rho_rate, &mut sums.heat));
         enter(Phase::Springs);
-        self.spring_work += self.surfaces.work(mesh, mean, self.kick, &mut sums.heat);
+        let of = (mesh, &self.contacts);
+        self.spring_work += self.surfaces.work(of, mean, self.kick, &mut sums.heat);
         enter(Phase::Motion);
         let pass = Motion {
             laws: self.laws(self.kick),

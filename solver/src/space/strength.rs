@@ -221,7 +221,7 @@ impl Solid {
             let measure = self.measure(&flow, size);
             let step = gap / (load.modulus * normal + slope * measure).max(tiny);
             let step = step.keep(yielding);
-            let flowed = isochoric(&each!(k => plastic[k] + step / size * flow[k]));
+            let flowed = isochoric(&each!(k in 6 => plastic[k] + step / size * flow[k]));
             for (strain, flowed) in plastic.iter_mut().zip(flowed) {
                 *strain = F::select(yielding, flowed, *strain);
             }
@@ -287,13 +287,13 @@ pub struct Load<F> {
 
 #[inline(always)]
 fn scaled<F: Lanes>(t: &Sym<F>, factor: F) -> Sym<F> {
-    each!(k => factor * t[k])
+    each!(k in 6 => factor * t[k])
 }
 
 /// `S` of Eq. (30), of the elastic strain (16).
 #[inline(always)]
 fn stress_of<F: Lanes>(total: &Sym<F>, plastic: &Sym<F>, modulus: F) -> Sym<F> {
-    each!(k => modulus * (total[k] - plastic[k]))
+    each!(k in 6 => modulus * (total[k] - plastic[k]))
 }
 
 /// Temperature from the reference to the melt temperature, 0 to 1.
@@ -306,7 +306,7 @@ fn homologous<F: Lanes>(theta: F, reference: f64, melt: f64) -> F {
 /// `C^p = I + 2 E^p`, Eq. (17).
 #[inline(always)]
 fn c_of<F: Lanes>(plastic: &Sym<F>) -> Sym<F> {
-    each!(k => plastic[k] * 2.0 + if k < 3 { 1.0 } else { 0.0 })
+    each!(k in 6 => plastic[k] * 2.0 + if k < 3 { 1.0 } else { 0.0 })
 }
 
 /// The plastic strain with the determinant of `C^p` brought back to one, Eq. (17): the flow rule keeps it
@@ -317,7 +317,7 @@ fn isochoric<F: Lanes>(plastic: &Sym<F>) -> Sym<F> {
     let c = c_of(plastic);
     let lost = F::splat(1.0) - determinant(&c);
     let scale = ((lost * (14.0 / 81.0) + 2.0 / 9.0) * lost + 1.0 / 3.0) * lost + 1.0;
-    each!(k => (c[k] * scale - if k < 3 { 1.0 } else { 0.0 }) * 0.5)
+    each!(k in 6 => (c[k] * scale - if k < 3 { 1.0 } else { 0.0 }) * 0.5)
 }
 
 #[inline(always)]

@@ -128,19 +128,30 @@ impl Particles<'_> {
     #[inline(always)]
     pub fn kick<F: Lanes>(&self, columns: &mut AllSlices<'_>, at: usize, i: usize) {
         let (Stage::Whole(kick, _) | Stage::Moved(kick, _)) = self.stage else { return };
-        if !self.active[self.mesh.piece_of(i)] {
+        let piece = self.mesh.piece_of(i);
+        if !self.active[piece] {
             return;
         }
         let (state, derived, sums) = columns;
         state.fetch::<F>(at + AHEAD);
         derived.fetch::<F>(at + AHEAD);
         sums.fetch::<F>(at + AHEAD);
-        let per_mass = F::splat(0.5 * kick) / F::load(&self.mesh.mass, i);
+        let per_mass = F::splat(0.5 * kick) / self.mass::<F>(piece, i);
         for (v, force) in
             [(&*state.vx, &mut *sums.fx), (&*state.vy, &mut *sums.fy), (&*state.vz, &mut *sums.fz)]
         {
             (F::load(v, at) + per_mass * F::load(force, at)).store(force, at);
         }
+    }
+
+    /// Masses of the particles from `i` on, of a piece.
+    #[inline(always)]
+    fn mass<F: Lanes>(&self, piece: usize, i: usize) -> F {
+        if !self.mesh.masses.is_empty() {
+            return F::load(&self.mesh.masses, i);
+        }
+        let body = &self.mesh.bodies[self.mesh.pieces[piece].body];
+        F::whole(&self.mesh.share, i) * body.sixteenth
     }
 
     /// Ends the step of the particles from `i` on, at `at` in the columns.
@@ -152,7 +163,7 @@ impl Particles<'_> {
         }
         let own = Eight {
             body: &self.mesh.bodies[self.mesh.pieces[piece].body],
-            mass: F::load(&self.mesh.mass, i),
+            mass: self.mass(piece, i),
             ratio: F::load(&self.mesh.ratio, i),
             touched: mask(&self.touched[i..]),
             at,

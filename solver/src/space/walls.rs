@@ -60,7 +60,7 @@ impl Wall {
         let axis = self.axis;
         for (i, body, x) in contacts.along(axis) {
             let whole = mesh.bodies[body].velocity[axis];
-            let v = velocity(state)[axis][i] + kick / mesh.mass[i] * force(sums, axis)[i];
+            let v = velocity(state)[axis][i] + kick / mesh.mass(i) * force(sums, axis)[i];
             let gap = self.side * (x - self.position);
             let speed = self.side * (v + whole);
             if gap + dt * speed < 0.0 {
@@ -97,7 +97,7 @@ impl Wall {
         let way = mesh.bodies[body].way;
         let x: [f64; 3] = std::array::from_fn(|d| place[d] + (way[d] + own[d]));
         let v = velocity(state)[axis][i];
-        let total = mesh.mass[i] * (wanted - v) / kick;
+        let total = mesh.mass(i) * (wanted - v) / kick;
         let force = force(sums, axis);
         let impulse = (total - force[i]) * kick;
         force[i] = total;

@@ -108,14 +108,14 @@ impl<F: Lanes> Warp<F> {
                 }
             }
         }
-        spread(&flow, cells, force);
+        let linear = spread(&flow, cells);
         for d in 0..3 {
             let mut modes = [F::zero(); 4];
             for (mode, rates) in modes.iter_mut().zip(rates) {
                 *mode = rates[d] * coefficient;
             }
-            for (force, own) in force.iter_mut().zip(resist(modes)) {
-                force[d] += own;
+            for ((force, own), linear) in force.iter_mut().zip(resist(modes)).zip(&linear) {
+                force[d] += own + linear[d];
             }
         }
     }

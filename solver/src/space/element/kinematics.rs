@@ -1,6 +1,6 @@
 //! Deformation of a cell, Eqs. (14)-(15), and the forces of its shear.
 
-use super::{V3, cross, dot};
+use super::{CENTRE, V3, cross, dot};
 use crate::space::cells::Cells;
 use crate::space::lanes::{Lanes, Mask, each};
 use crate::space::strength::{Sym, contract};
@@ -36,15 +36,15 @@ pub(super) fn gradient<F: Lanes, const MAPPED: bool>(
     out
 }
 
-/// Adds to the corners the transpose of [`gradient`].
+/// The transpose of [`gradient`], at the nine slots.
 #[inline(always)]
 pub(super) fn spread<F: Lanes, const MAPPED: bool>(
     along: &[V3<F>; 3],
     cells: &Cells<'_, MAPPED>,
-    to: &mut [V3<F>; 9],
-) {
+) -> [V3<F>; 9] {
     if MAPPED {
-        for (slot, to) in to[..8].iter_mut().enumerate() {
+        let mut to = [[F::zero(); 3]; 9];
+        for (slot, to) in to[..CENTRE].iter_mut().enumerate() {
             for (axis, along) in along.iter().enumerate() {
                 let weight = cells.weight::<F>(slot, axis);
                 for (to, along) in to.iter_mut().zip(along) {
@@ -52,22 +52,26 @@ pub(super) fn spread<F: Lanes, const MAPPED: bool>(
                 }
             }
         }
-        return;
+        return to;
     }
     let size = cells.body.lattice.size;
-    for d in 0..3 {
+    let by_way = each!(d in 3 => {
         let (fast, mid) = (along[0][d] * (0.25 / size[0]), along[1][d] * (0.25 / size[1]));
         let up = along[2][d] * (0.25 / size[2]);
         let (plus, minus, down) = (mid + fast, mid - fast, -up);
-        to[0][d] += down - plus;
-        to[1][d] += down - minus;
-        to[2][d] += down + minus;
-        to[3][d] += down + plus;
-        to[4][d] += up - plus;
-        to[5][d] += up - minus;
-        to[6][d] += up + minus;
-        to[7][d] += up + plus;
-    }
+        [
+            down - plus,
+            down - minus,
+            down + minus,
+            down + plus,
+            up - plus,
+            up - minus,
+            up + minus,
+            up + plus,
+            F::zero(),
+        ]
+    });
+    each!(slot in 9 => [by_way[0][slot], by_way[1][slot], by_way[2][slot]])
 }
 
 /// Deformation of up to eight elements, Eqs. (14)-(15), in lattice axes.
@@ -87,25 +91,22 @@ pub(super) struct Kinematics<F> {
 /// `F^T F`.
 #[inline(always)]
 pub(super) fn right_cauchy_green<F: Lanes>(f: &[F; 9]) -> Sym<F> {
-    let mut c = [F::zero(); 6];
-    for (c, [i, j]) in c.iter_mut().zip([[0, 0], [1, 1], [2, 2], [0, 1], [0, 2], [1, 2]]) {
-        *c = f[i] * f[j] + f[3 + i] * f[3 + j] + f[6 + i] * f[6 + j];
-    }
-    c
+    each!(k in 6 => {
+        let [i, j] = [[0, 0], [1, 1], [2, 2], [0, 1], [0, 2], [1, 2]][k];
+        f[i] * f[j] + f[3 + i] * f[3 + j] + f[6 + i] * f[6 + j]
+    })
 }
 
 impl<F: Lanes> Kinematics<F> {
     #[inline(always)]
     pub(super) fn new<const MAPPED: bool>(u: &[V3<F>; 9], cells: &Cells<'_, MAPPED>) -> Self {
         let along = gradient(u, cells);
-        let mut f = [F::zero(); 9];
-        for (row, axis) in cells.body.lattice.axes.iter().enumerate() {
-            for column in 0..3 {
-                let g = &along[column];
-                let b = g[0] * axis[0] + g[1] * axis[1] + g[2] * axis[2];
-                f[3 * row + column] = b + if row == column { 1.0 } else { 0.0 };
-            }
-        }
+        let axes = &cells.body.lattice.axes;
+        let f = each!(k in 9 => {
+            let (g, axis) = (&along[k % 3], &axes[k / 3]);
+            let b = g[0] * axis[0] + g[1] * axis[1] + g[2] * axis[2];
+            b + if k / 3 == k % 3 { 1.0 } else { 0.0 }
+        });
         let (a, b, c) = ([f[0], f[1], f[2]], [f[3], f[4], f[5]], [f[6], f[7], f[8]]);
         let (bc, ca, ab) = (cross(&b, &c), cross(&c, &a), cross(&a, &b));
         let jacobian = dot(&a, &bc);
@@ -123,7 +124,7 @@ impl<F: Lanes> Kinematics<F> {
     #[inline(always)]
     pub(super) fn shear_strain(&self) -> Sym<F> {
         let q = self.root * self.root * 0.5;
-        each!(k => q * self.c[k] - if k < 3 { 0.5 } else { 0.0 })
+        each!(k in 6 => q * self.c[k] - if k < 3 { 0.5 } else { 0.0 })
     }
 
     /// Mean squared stretch without the volume, times the compression's.
@@ -157,23 +158,17 @@ impl<F: Lanes> Kinematics<F> {
         out
     }
 
-    /// Adds the corner forces of the shear stress, `-V_o P grad N`.
+    /// The corner forces of the shear stress, `-V_o P grad N`.
     #[inline(always)]
     pub(super) fn forces<const MAPPED: bool>(
         &self,
         stress: &Sym<F>,
         cells: &Cells<'_, MAPPED>,
         live: Mask,
-        force: &mut [V3<F>; 9],
-    ) {
+    ) -> [V3<F>; 9] {
         let piola = self.piola(stress, &cells.body.lattice.axes);
         let volume = -cells.volume::<F>();
-        let mut along = [[F::zero(); 3]; 3];
-        for (axis, along) in along.iter_mut().enumerate() {
-            for (d, along) in along.iter_mut().enumerate() {
-                *along = (piola[3 * d + axis] * volume).keep(live);
-            }
-        }
-        spread(&along, cells, force);
+        let along = each!(axis in 3 => each!(d in 3 => (piola[3 * d + axis] * volume).keep(live)));
+        spread(&along, cells)
     }
 }

@@ -150,14 +150,9 @@ impl Group {
         let u: [V3<F>; 9] = self.gather_vector(read.displacement);
         let y = shape(&u, cells);
         let theta: [F; 9] = self.gather(read.theta);
-        let mut loads = Loads { force: [[F::zero(); 3]; 9], heat: [F::zero(); 9] };
-
         let motion = Kinematics::new(&u, cells);
-        let mut pyramids = [Pyramid::nothing(); 6];
-        for k in 0..6 {
-            pyramids[k] = Pyramid::new(&y, FACES[k], cells.pyramid(k));
-        }
-        let opening: [F; 6] = each!(k => pyramids[k].growth * cells.per_pyramid::<F>(k));
+        let pyramids = each!(k in 6 => Pyramid::new(&y, FACES[k], cells.pyramid(k)));
+        let opening: [F; 6] = each!(k in 6 => pyramids[k].growth * cells.per_pyramid::<F>(k));
         let corners = ((theta[0] + theta[1]) + (theta[2] + theta[3]))
             + ((theta[4] + theta[5]) + (theta[6] + theta[7]));
         let mean = theta[CENTRE] * 0.5 + corners * 0.0625;
@@ -171,29 +166,25 @@ impl Group {
         };
         let mut freed = self.damage(cells, (&opening, held), laws.dt);
         let intact = F::splat(1.0) - F::of(self.damage);
-        let mut rate_squared = F::zero();
-        if body.solid.mu > 0.0 {
+        let (mut force, mut rate_squared) = if body.solid.mu > 0.0 {
             freed += self.shear(cells, &motion, (mean, intact, laws.dt));
-            let stress = each!(k => F::of(self.stress[k]));
-            motion.forces(&stress, cells, live, &mut loads.force);
+            let stress = each!(k in 6 => F::of(self.stress[k]));
             // Twice the rate at which longitudinal waves cross the cell, stretched.
             let crossing: F = cells.edge_as(|edge| (2.0 * body.solid.sound / edge).powi(2));
-            rate_squared = motion.stretch_squared() * crossing;
-        }
+            (motion.forces(&stress, cells, live), motion.stretch_squared() * crossing)
+        } else {
+            ([[F::zero(); 3]; 9], F::zero())
+        };
         if let Some(glass) = &glass {
-            glass.push(&u, intact.keep(live), &mut loads.force);
+            glass.push(&u, intact.keep(live), &mut force);
             rate_squared += glass.rate_squared(cells);
         }
         let freed = freed.keep(live);
-        for slot in 0..8 {
-            loads.heat[slot] = freed * 0.0625;
-        }
-        loads.heat[CENTRE] = freed * 0.5;
+        let (corner, centre) = (freed * 0.0625, freed * 0.5);
+        let heat = each!(slot in 9 => if slot == CENTRE { centre } else { corner });
+        let mut loads = Loads { force, heat };
 
-        let mut push = [F::zero(); 6];
-        for k in 0..6 {
-            push[k] = -tension(opening[k], intact, body.solid.bulk).keep(live);
-        }
+        let mut push = each!(k in 6 => -tension(opening[k], intact, body.solid.bulk).keep(live));
         let mut damping = F::zero();
         if laws.volumes {
             self.carry((laws, read), &mut push);
@@ -260,7 +251,7 @@ impl Group {
             power += (glass.power(&u, &v) * intact).keep(self.live);
         }
         if body.solid.mu > 0.0 {
-            let stress = each!(k => F::of(self.stress[k]));
+            let stress = each!(k in 6 => F::of(self.stress[k]));
             let piola = Kinematics::new(&u, cells).piola(&stress, &body.lattice.axes);
             let gradient = gradient(&v, cells);
             let mut shear = F::zero();
@@ -330,7 +321,7 @@ impl Group {
             *u = sub(u, &v.map(|v| v * dt));
         }
         let y = shape(&u, cells);
-        let opening = each!(k => Pyramid::new(&y, FACES[k], cells.pyramid::<F8>(k)).growth * cells.per_pyramid::<F8>(k));
+        let opening = each!(k in 6 => Pyramid::new(&y, FACES[k], cells.pyramid::<F8>(k)).growth * cells.per_pyramid::<F8>(k));
         let intact = F8::splat(1.0) - self.damage;
         let (shear, tension) =
             (self.shear_energy::<F8, MAPPED>(cells), tension_energy(cells, &opening));

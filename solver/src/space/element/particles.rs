@@ -59,14 +59,12 @@ impl Group {
     /// A column at the nine slots.
     #[inline(always)]
     pub(super) fn gather<F: Lanes>(&self, column: &[f64]) -> [F; 9] {
-        let mut out = [F::zero(); 9];
-        for row in 0..4 {
+        let rows = each!(row in 4 => {
             let at = self.rows[row] as usize;
-            let nodes = &column[at..at + LANES + 1];
-            (out[2 * row], out[2 * row + 1]) = (F::load(nodes, 0), F::load(nodes, 1));
-        }
-        out[CENTRE] = F::load(column, self.centre as usize);
-        out
+            &column[at..at + LANES + 1]
+        });
+        let centre = F::load(column, self.centre as usize);
+        each!(slot in 9 => if slot == CENTRE { centre } else { F::load(rows[slot / 2 % 4], slot % 2) })
     }
 
     /// A vector column at the nine slots.
@@ -74,7 +72,7 @@ impl Group {
     pub(super) fn gather_vector<F: Lanes>(&self, columns: [&[f64]; 3]) -> [V3<F>; 9] {
         let [x, y, z] = columns;
         let (x, y, z): ([F; 9], [F; 9], [F; 9]) = (self.gather(x), self.gather(y), self.gather(z));
-        each!(slot => [x[slot], y[slot], z[slot]] => [F::zero(); 3])
+        each!(slot in 9 => [x[slot], y[slot], z[slot]])
     }
 
     /// A vector column at the nine slots, from those of nodes and centroids whose first are `first`.
@@ -85,18 +83,14 @@ impl Group {
         centres: [&[f64]; 3],
         first: [usize; 2],
     ) -> [V3<F>; 9] {
-        let mut out = [[F::zero(); 3]; 9];
-        for (slot, out) in out.iter_mut().enumerate() {
+        each!(slot in 9 => {
             let (columns, at) = if slot == CENTRE {
                 (centres, self.centre as usize - first[1])
             } else {
-                (nodes, self.node(slot) - first[0])
+                (nodes, self.node(slot % CENTRE) - first[0])
             };
-            for (out, column) in out.iter_mut().zip(columns) {
-                *out = F::load_some(column, at);
-            }
-        }
-        out
+            each!(d in 3 => F::load_some(columns[d], at))
+        })
     }
 
     /// Adds the corners' values to a column of nodes whose first is `first`.
@@ -133,7 +127,7 @@ impl Group {
             (&mut *nodes.fz, &mut *centres.fz),
         ];
         for (d, (node, centre)) in columns.into_iter().enumerate() {
-            let own: [F; 9] = each!(slot => values[slot][d]);
+            let own: [F; 9] = each!(slot in 9 => values[slot][d]);
             self.scatter(&own, node, sink.first_node);
             self.scatter_centre(own[CENTRE], centre, sink.first_centre);
         }

@@ -2,7 +2,7 @@
 
 use super::{CENTRE, FACES, V3, cross, dot, sub};
 use crate::space::cells::Cells;
-use crate::space::lanes::{F8, Lanes};
+use crate::space::lanes::{F8, Lanes, each};
 
 /// A pyramid from the centroid to a face.
 #[derive(Debug, Clone, Copy)]
@@ -20,17 +20,10 @@ pub(super) struct Pyramid<F> {
 
 impl<F: Lanes> Pyramid<F> {
     #[inline(always)]
-    pub(super) fn nothing() -> Self {
-        let none = [F::zero(); 3];
-        Self { w: none, e: none, g: none, area: none, growth: F::zero() }
-    }
-
-    #[inline(always)]
     pub(super) fn new(y: &[V3<F>; 9], [a, b, c, d]: [usize; 4], reference: F) -> Self {
-        let mut w = [F::zero(); 3];
-        for (k, w) in w.iter_mut().enumerate() {
-            *w = ((y[a][k] + y[b][k]) + (y[c][k] + y[d][k])) * 0.25 - y[CENTRE][k];
-        }
+        let w = each!(k in 3 => {
+            ((y[a][k] + y[b][k]) + (y[c][k] + y[d][k])) * 0.25 - y[CENTRE][k]
+        });
         let (e, g) = (sub(&y[c], &y[a]), sub(&y[d], &y[b]));
         let area = cross(&e, &g);
         // Exact for the bilinear face; nothing where nothing has moved.
@@ -42,10 +35,9 @@ impl<F: Lanes> Pyramid<F> {
     #[inline(always)]
     pub(super) fn rate(&self, v: &[V3<F>; 9], face: [usize; 4]) -> F {
         let [a, b, c, d] = face;
-        let mut w = [F::zero(); 3];
-        for (k, w) in w.iter_mut().enumerate() {
-            *w = ((v[a][k] + v[b][k]) + (v[c][k] + v[d][k])) * 0.25 - v[CENTRE][k];
-        }
+        let w = each!(k in 3 => {
+            ((v[a][k] + v[b][k]) + (v[c][k] + v[d][k])) * 0.25 - v[CENTRE][k]
+        });
         let (e, g) = (sub(&v[c], &v[a]), sub(&v[d], &v[b]));
         let turned = dot(&e, &cross(&self.g, &self.w)) + dot(&g, &cross(&self.w, &self.e));
         (dot(&w, &self.area) + turned) * (1.0 / 6.0)

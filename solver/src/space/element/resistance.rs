@@ -82,7 +82,7 @@ impl Group {
         let intact = F::splat(1.0) - F::of(self.damage);
         let stiffness = intact * intact * (4.0 * cells.body.solid.mu);
         let some = stiffness.gt(F::zero());
-        let stress: Sym<F> = each!(k => F::of(self.stress[k]));
+        let stress: Sym<F> = each!(k in 6 => F::of(self.stress[k]));
         let energy = contract(&stress, &stress) / F::select(some, stiffness, F::splat(1.0));
         (energy * cells.volume::<F>()).keep(some)
     }
@@ -97,8 +97,8 @@ impl Group {
         (theta, intact, dt): (F, F, f64),
     ) -> F {
         let total = motion.shear_strain();
-        let before: Sym<F> = each!(k => F::of(self.plastic[k]));
-        let old: Sym<F> = each!(k => F::of(self.stress[k]));
+        let before: Sym<F> = each!(k in 6 => F::of(self.plastic[k]));
+        let old: Sym<F> = each!(k in 6 => F::of(self.stress[k]));
         let mut plastic = before;
         let solid = &cells.body.solid;
         let modulus = intact * (2.0 * solid.mu);
@@ -106,7 +106,7 @@ impl Group {
         let mut own =
             Flowing { strain: &mut self.strain, flow: &mut self.flow, rate: &mut self.rate };
         let stress = solid.flow(&total, &mut plastic, &mut own, &load);
-        let step: Sym<F> = each!(k => plastic[k] - before[k]);
+        let step: Sym<F> = each!(k in 6 => plastic[k] - before[k]);
         let mut flowed = 0;
         for k in 0..6 {
             self.stress[k] = stress[k].pack();
@@ -119,7 +119,7 @@ impl Group {
         for (own, plastic) in self.plastic.iter_mut().zip(plastic) {
             *own = plastic.pack();
         }
-        let mean: Sym<F> = each!(k => (stress[k] + old[k]) * 0.5);
+        let mean: Sym<F> = each!(k in 6 => (stress[k] + old[k]) * 0.5);
         contract(&mean, &step) * cells.volume::<F>()
     }
 }

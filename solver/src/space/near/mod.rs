@@ -25,6 +25,8 @@ use join::Joiner;
 use motion::{Free, Motion};
 use search::{Block, CHUNK, Slot};
 
+pub(super) use sort::{put, roomy};
+
 /// Flag of a member that can be in contact with any other.
 pub const EXPOSED: u8 = 1;
 
@@ -209,7 +211,7 @@ impl PairList {
                 for other in self.grid.round(cell).filter(|other| other.id != member.id) {
                     let pair = [member.id.min(other.id), member.id.max(other.id)];
                     if self.grid.in_reach(member, other) && keep(pair[0], pair[1]) {
-                        batch.push(pair);
+                        put(&mut batch, pair);
                     }
                 }
             }

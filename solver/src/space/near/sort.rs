@@ -11,6 +11,9 @@ const VALUES: usize = 1 << WIDEST;
 /// Most digits of a key.
 const DIGITS: usize = u64::BITS.div_ceil(WIDEST) as usize;
 
+/// Room of the smallest buffer.
+const FEW: usize = 4;
+
 /// A key, and what it is the key of. There are many: no gap behind the index.
 #[derive(Debug, Clone, Copy, Default)]
 #[repr(C, packed(4))]
@@ -80,9 +83,19 @@ fn digit(key: u64, shift: u32, width: u32) -> usize {
     (key >> shift) as usize & ((1 << width) - 1) & (VALUES - 1)
 }
 
-/// Length to which a buffer grows that has to hold `n`: an eighth more, so that it seldom grows.
-pub(super) fn roomy<T>(buffer: &mut Vec<T>, n: usize) {
+/// Length to which a buffer grows that has to hold `n`: an eighth more, so that it seldom grows, and not
+/// twice what it was.
+pub(in crate::space) fn roomy<T>(buffer: &mut Vec<T>, n: usize) {
     if buffer.capacity() < n {
-        buffer.reserve(n + n / 8 - buffer.len());
+        buffer.reserve_exact(n + n / 8 - buffer.len());
     }
+}
+
+/// Puts something into a buffer that grows like that.
+#[inline(always)]
+pub(in crate::space) fn put<T>(buffer: &mut Vec<T>, value: T) {
+    if buffer.len() == buffer.capacity() {
+        roomy(buffer, buffer.len() + FEW);
+    }
+    buffer.push(value);
 }

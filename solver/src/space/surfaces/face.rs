@@ -23,19 +23,21 @@ const SHORT: f64 = 1e-6;
 /// Square of the warp of a face over that of its sides from which on it may have several nearest points.
 const WARPED: f64 = 0.01;
 
+/// Part by which the square of a distance must be larger to be so beyond rounding.
+const SURE: f64 = 1e-9;
+
 /// Least curvature of the square of the distance, over that of a flat face, that the search trusts.
 const CONVEX: f64 = 1e-6;
 
-/// Face of an element.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Face {
-    /// Its corners, in order about the axis that it lies across, from the lowest.
-    pub(super) nodes: [usize; 4],
-}
+/// Corners of the face of an element, in order about the axis that it lies across, from the lowest.
+pub(super) type Nodes = [usize; 4];
+
+/// The same as members.
+pub(super) type Corners = [u32; 4];
 
 /// Calls for every face of the live surface of a body round a node, with the side of its element: twice
 /// the axis that it lies across, and one more if it is the upper one.
-pub(super) fn each_face(mesh: &Mesh, body: usize, at: [i16; 3], mut f: impl FnMut(Face, usize)) {
+pub(super) fn each_face(mesh: &Mesh, body: usize, at: [i16; 3], mut f: impl FnMut(Nodes, usize)) {
     let own = &mesh.bodies[body];
     let mut live = 0u8;
     for (octant, cell) in own.lattice.cells_round(at) {
@@ -54,14 +56,13 @@ pub(super) fn each_face(mesh: &Mesh, body: usize, at: [i16; 3], mut f: impl FnMu
 }
 
 /// The face across an axis with this node as its lowest corner.
-pub(super) fn face_across(body: &Body, lowest: [i16; 3], axis: usize) -> Face {
-    let nodes = [[0, 0], [2, 0], [2, 2], [0, 2]].map(|step: [i16; 2]| {
+pub(super) fn face_across(body: &Body, lowest: [i16; 3], axis: usize) -> Nodes {
+    [[0, 0], [2, 0], [2, 2], [0, 2]].map(|step: [i16; 2]| {
         let mut node = lowest;
         node[(axis + 1) % 3] += step[0];
         node[(axis + 2) % 3] += step[1];
         body.nodes.start + body.lattice.node(node) as usize
-    });
-    Face { nodes }
+    })
 }
 
 /// Shares of the corners of a face in a point of it.
@@ -69,22 +70,26 @@ pub(super) fn bilinear([u, v]: [f64; 2]) -> [f64; 4] {
     [(1.0 - u) * (1.0 - v), u * (1.0 - v), u * v, (1.0 - u) * v]
 }
 
-/// Where the corners of a face are, if that is known: those of live surfaces are.
-pub(super) fn corners_of(contacts: &Contacts, face: &Face) -> Option<[[f64; 3]; 4]> {
-    let mut corners = [[0.0; 3]; 4];
-    for (corner, &node) in corners.iter_mut().zip(&face.nodes) {
-        *corner = contacts.position(contacts.find(node)? as u32);
+/// The members that the corners of a face are, if they are: those of live surfaces are.
+pub(super) fn corners_of(contacts: &Contacts, nodes: &Nodes) -> Option<Corners> {
+    let mut corners = [0; 4];
+    for (corner, &node) in corners.iter_mut().zip(nodes) {
+        *corner = contacts.find(node)? as u32;
     }
     Some(corners)
 }
 
-/// Where a mean of particles is, with their shares, if that is known.
-pub(super) fn place_of(contacts: &Contacts, own: &[(usize, f64); 4]) -> Option<[f64; 3]> {
-    let mut x = [0.0; 3];
-    for &(i, share) in own.iter().filter(|own| own.1 > 0.0) {
-        x = plus(x, share, contacts.position(contacts.find(i)? as u32));
-    }
-    Some(x)
+/// Where they are.
+#[inline(always)]
+pub(super) fn places_of(contacts: &Contacts, corners: &Corners) -> [[f64; 3]; 4] {
+    corners.map(|corner| contacts.position(corner))
+}
+
+/// The mean of places with these shares.
+#[inline(always)]
+pub(super) fn mean_of(places: &[[f64; 3]; 4], shares: &[f64; 4]) -> [f64; 3] {
+    let shares = shares.iter().zip(places).filter(|(share, _)| **share > 0.0);
+    shares.fold([0.0; 3], |x, (&share, &place)| plus(x, share, place))
 }
 
 /// The part of a face that one of its points acts for.
@@ -133,21 +138,25 @@ pub(super) struct Nearest {
 impl Nearest {
     /// Of a bilinear face with these corners, to `x`. Where the face is warped the search starts from its
     /// edges too: a fold of it may be nearer than what is seen from the middle.
-    pub(super) fn of(x: [f64; 3], [a, b, c, d]: [[f64; 3]; 4]) -> Self {
-        let sides = [minus(b, a), minus(d, a)];
-        let face = Bilinear { from: minus(x, a), sides, twist: minus(minus(c, d), sides[0]) };
-        let mut best = face.descend([0.5; 2]);
-        let size = dot(sides[0], sides[0]) + dot(sides[1], sides[1]);
-        if dot(face.twist, face.twist) > WARPED * size {
-            for (start, way) in [([0.0; 2], 0), ([0.0; 2], 1), ([0.0, 1.0], 0), ([1.0, 0.0], 1)] {
-                let at = face.slide(start, way);
-                let r = face.away(at);
-                if dot(r, r) < best.square {
-                    best = face.descend(at);
-                }
-            }
+    pub(super) fn of(x: [f64; 3], corners: [[f64; 3]; 4]) -> Self {
+        let face = Bilinear::new(x, corners);
+        face.nearest(face.start())
+    }
+
+    /// The same, unless the face is seen to be farther away than the square root of `limit`.
+    pub(super) fn within(x: [f64; 3], corners: [[f64; 3]; 4], limit: f64) -> Option<Self> {
+        let face = Bilinear::new(x, corners);
+        let away = corners.map(|corner| minus(x, corner));
+        // No point of a face is nearer, along any way, than the nearest of its corners.
+        let beyond = |way: [f64; 3]| {
+            let least = away.iter().fold(f64::INFINITY, |least, &r| least.min(dot(r, way)));
+            least > 0.0 && least * least > limit * (1.0 + SURE) * dot(way, way)
+        };
+        let start = face.start();
+        if limit.is_finite() && (beyond(start.r) || beyond(face.step(&start).1.r)) {
+            return None;
         }
-        best
+        Some(face.nearest(start))
     }
 }
 
@@ -161,6 +170,11 @@ struct Bilinear {
 }
 
 impl Bilinear {
+    fn new(x: [f64; 3], [a, b, c, d]: [[f64; 3]; 4]) -> Self {
+        let sides = [minus(b, a), minus(d, a)];
+        Self { from: minus(x, a), sides, twist: minus(minus(c, d), sides[0]) }
+    }
+
     /// Derivatives of the place along both sides.
     fn along(&self, at: [f64; 2]) -> [[f64; 3]; 2] {
         [plus(self.sides[0], at[1], self.twist), plus(self.sides[1], at[0], self.twist)]
@@ -169,6 +183,32 @@ impl Bilinear {
     /// From a place on the face to the point.
     fn away(&self, at: [f64; 2]) -> [f64; 3] {
         plus(plus(self.from, -at[0], self.sides[0]), -at[1], self.along(at)[1])
+    }
+
+    /// A place on the face, as if it were the nearest.
+    fn seen(&self, at: [f64; 2]) -> Nearest {
+        let r = self.away(at);
+        Nearest { at, r, square: dot(r, r) }
+    }
+
+    /// The middle, where the search begins.
+    fn start(&self) -> Nearest {
+        self.seen([0.5; 2])
+    }
+
+    /// The nearest place, seen from the middle.
+    fn nearest(&self, start: Nearest) -> Nearest {
+        let mut best = self.descend(start);
+        let size = dot(self.sides[0], self.sides[0]) + dot(self.sides[1], self.sides[1]);
+        if dot(self.twist, self.twist) > WARPED * size {
+            for (start, way) in [([0.0; 2], 0), ([0.0; 2], 1), ([0.0, 1.0], 0), ([1.0, 0.0], 1)] {
+                let near = self.seen(self.slide(start, way));
+                if near.square < best.square {
+                    best = self.descend(near);
+                }
+            }
+        }
+        best
     }
 
     /// The place nearest to the point along one side through `start`.
@@ -180,46 +220,53 @@ impl Bilinear {
         at
     }
 
-    /// Newton's iteration on the square of the distance from a place on, within the face; a step never
-    /// leads away.
-    fn descend(&self, mut at: [f64; 2]) -> Nearest {
-        let mut r = self.away(at);
+    /// Newton's step on the square of the distance, within the face, and where it leads.
+    fn step(&self, Nearest { at, r, .. }: &Nearest) -> ([f64; 2], Nearest) {
+        let along = self.along(*at);
+        let slope = along.map(|along| dot(*r, along));
+        let steep = along.map(|along| dot(along, along));
+        let mixed = dot(along[0], along[1]) - dot(*r, self.twist);
+        let both = steep[0] * steep[1] - mixed * mixed;
+        // What would leave the face stays on its edge.
+        let stays = |i: usize| at[i] <= 0.0 && slope[i] <= 0.0 || at[i] >= 1.0 && slope[i] >= 0.0;
+        let held = [stays(0), stays(1)];
+        let step = if held == [false; 2] && both > CONVEX * steep[0] * steep[1] {
+            [0, 1].map(|i| (slope[i] * steep[1 - i] - slope[1 - i] * mixed) / both)
+        } else {
+            let alone = |i: usize| slope[i] / steep[i].max(f64::MIN_POSITIVE);
+            [0, 1].map(|i| if held[i] { 0.0 } else { alone(i) })
+        };
+        (step, self.by(at, &step))
+    }
+
+    /// What a step leads to.
+    fn by(&self, at: &[f64; 2], step: &[f64; 2]) -> Nearest {
+        self.seen([0, 1].map(|i| (at[i] + step[i]).clamp(0.0, 1.0)))
+    }
+
+    /// Newton's iteration from a place on; a step never leads away.
+    fn descend(&self, mut near: Nearest) -> Nearest {
         let mut rounds = 0..ROUNDS;
         while rounds.next().is_some() {
-            let along = self.along(at);
-            let slope = along.map(|along| dot(r, along));
-            let steep = along.map(|along| dot(along, along));
-            let mixed = dot(along[0], along[1]) - dot(r, self.twist);
-            let both = steep[0] * steep[1] - mixed * mixed;
-            // What would leave the face stays on its edge.
-            let stays =
-                |i: usize| at[i] <= 0.0 && slope[i] <= 0.0 || at[i] >= 1.0 && slope[i] >= 0.0;
-            let held = [stays(0), stays(1)];
-            let mut step = if held == [false; 2] && both > CONVEX * steep[0] * steep[1] {
-                [0, 1].map(|i| (slope[i] * steep[1 - i] - slope[1 - i] * mixed) / both)
-            } else {
-                let alone = |i: usize| slope[i] / steep[i].max(f64::MIN_POSITIVE);
-                [0, 1].map(|i| if held[i] { 0.0 } else { alone(i) })
-            };
+            let (mut step, mut next) = self.step(&near);
             // A step that leads away is too long, unless the distance cannot tell.
             loop {
-                let next = [0, 1].map(|i| (at[i] + step[i]).clamp(0.0, 1.0));
-                let way = self.away(next);
-                let moved = (next[0] - at[0]).abs() + (next[1] - at[1]).abs();
-                let nearer = moved < SHORT || dot(way, way) < dot(r, r);
+                let moved = (next.at[0] - near.at[0]).abs() + (next.at[1] - near.at[1]).abs();
+                let nearer = moved < SHORT || next.square < near.square;
                 if nearer {
-                    (at, r) = (next, way);
+                    near = next;
                 }
                 if moved < CLOSEST {
-                    return Nearest { at, r, square: dot(r, r) };
+                    return near;
                 }
                 if nearer || rounds.next().is_none() {
                     break;
                 }
                 step = step.map(|step| 0.5 * step);
+                next = self.by(&near.at, &step);
             }
         }
-        Nearest { at, r, square: dot(r, r) }
+        near
     }
 }
 

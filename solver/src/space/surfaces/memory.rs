@@ -1,8 +1,8 @@
 //! What surfaces keep from step to step, for checkpoints.
 
 use super::Surfaces;
-use super::face::Face;
-use super::spring::{PLACES, Place, Spring};
+use super::face::corners_of;
+use super::spring::{PLACES, Past, Start};
 use crate::space::contacts::Contacts;
 use crate::space::mesh::Mesh;
 
@@ -55,10 +55,12 @@ impl Surfaces {
             area: vec![0.0; places],
             face: vec![u64::MAX; 2 * places],
         };
-        for spring in &self.springs {
-            let first = contacts.member(spring.slot / PLACES).particle;
-            let at = Memory::address(mesh, first, spring.slot % PLACES);
-            let [a, b, c, d] = spring.face.nodes.map(|node| node as u64);
+        let now = self.springs.iter().map(|spring| &spring.past);
+        for spring in self.past.iter().chain(now) {
+            let slot = spring.slot as usize;
+            let first = contacts.member(slot / PLACES).particle;
+            let at = Memory::address(mesh, first, slot % PLACES);
+            let [a, b, c, d] = spring.face.map(|corner| contacts.particle(corner) as u64);
             memory.stand[at] = spring.stand;
             memory.distance[at] = spring.distance;
             memory.area[at] = spring.area;
@@ -70,25 +72,20 @@ impl Surfaces {
 
     /// Takes it back.
     pub(in crate::space) fn recall(&mut self, mesh: &Mesh, contacts: &Contacts, memory: &Memory) {
-        self.found = false;
-        self.springs.clear();
+        *self = Self { some: self.some, ..Self::default() };
         for (at, &[low, high]) in memory.face.as_chunks().0.iter().enumerate() {
             let (particle, place) = Memory::place(mesh, at);
             let Some(member) = contacts.find(particle).filter(|_| low != u64::MAX) else {
                 continue;
             };
-            let from = Place::of(mesh, &contacts.member(member), place);
-            if place > 0 && from.nodes.iter().any(|&node| node >= mesh.first_centroid) {
-                continue;
+            let slot = (PLACES * member + place) as u32;
+            let nodes = [low >> 32, low & HALF, high >> 32, high & HALF].map(|node| node as usize);
+            let Some(face) = corners_of(contacts, &nodes) else { continue };
+            if Start::at(mesh, contacts, slot).is_some() {
+                let (stand, distance) = (memory.stand[at], memory.distance[at]);
+                self.past.push(Past { slot, face, distance, stand, area: memory.area[at] });
             }
-            let nodes = [low >> 32, low & HALF, high >> 32, high & HALF];
-            let face = Face { nodes: nodes.map(|node| node as usize) };
-            let to = (face, mesh.place(face.nodes[0]).0);
-            let mut spring = Spring::new(mesh, PLACES * member + place, &from, to);
-            (spring.stand, spring.distance) = (memory.stand[at], memory.distance[at]);
-            spring.area = memory.area[at];
-            self.springs.push(spring);
         }
-        self.springs.sort_unstable_by_key(|spring| spring.slot);
+        self.past.sort_unstable_by_key(|past| past.slot);
     }
 }

@@ -8,17 +8,19 @@
 
 mod face;
 mod memory;
+mod shell;
 mod spring;
 
 pub(super) use self::memory::Memory;
 
-use self::face::{Face, Nearest, POINTS, corners_of, dot, each_face, place_of};
-use self::spring::{DEEPEST, Law, PLACES, Place, Pull, Spring};
+use self::face::{Corners, Nearest, POINTS, Part, dot, mean_of, places_of};
+use self::shell::{Lookout, Shell};
+use self::spring::{DEEPEST, Law, Past, Spring, Start};
 use super::columns::{Derived, State, Sums};
-use super::contacts::{Contacts, Member, steepness};
-use super::lattice::NONE;
+use super::contacts::{Contacts, steepness};
 use super::mesh::Mesh;
 use super::method::Method;
+use super::near::{put, roomy};
 
 /// Distance at which a surface is felt, in edges of cells.
 const STAND: f64 = 0.5;
@@ -53,16 +55,16 @@ pub fn meet(mesh: &Mesh, pair: [usize; 2], bodies: [usize; 2]) -> bool {
 pub struct Surfaces {
     /// Whether there can be any.
     some: bool,
-    /// Nearest node of another body's surface and the square of its distance, by member.
-    nearest: Vec<(f64, u32)>,
+    /// Surfaces in front of each other.
+    shell: Shell,
     /// By slot, in order.
     springs: Vec<Spring>,
-    /// Those of the last step.
-    before: Vec<Spring>,
+    /// What is left of those before, while the present ones are not known.
+    past: Vec<Past>,
     /// Whether nothing has moved since they were found.
     found: bool,
-    /// Changes of the areas of pressed springs.
-    pulls: Vec<Pull>,
+    /// Gradients of the areas of pressed faces by their corners.
+    slopes: Vec<[[f64; 3]; 4]>,
 }
 
 impl Surfaces {
@@ -76,10 +78,11 @@ impl Surfaces {
     /// that must be.
     pub fn too_close(&mut self, mesh: &Mesh, contacts: &Contacts) -> Option<(usize, [f64; 2])> {
         let mut first = None;
-        self.look(mesh, contacts, |spring| {
-            let least = CLOSE * STAND * mesh.bodies[spring.body].edge();
-            if spring.distance < 0.99 * least {
-                first.get_or_insert((spring.body, [spring.distance, least]));
+        self.look((mesh, contacts), |spring| {
+            let body = usize::from(spring.bodies[0]);
+            let least = CLOSE * STAND * mesh.bodies[body].edge();
+            if spring.past.distance < 0.99 * least {
+                first.get_or_insert((body, [spring.past.distance, least]));
             }
         });
         first
@@ -102,29 +105,36 @@ impl Surfaces {
         } else {
             self.renew((mesh, contacts), |i, energy| sums.heat[i] += energy)
         };
+        self.slopes.clear();
         let velocity = |i: usize| [state.vx[i], state.vy[i], state.vz[i]];
         let mut rate = 0.0f64;
         for spring in &mut self.springs {
-            if spring.stand < CLOSE * full_stand(mesh, [spring.body, spring.other]) {
+            let Past { stand, distance, area, .. } = spring.past;
+            if stand < CLOSE * full_stand(mesh, spring.bodies) {
                 continue;
             }
-            let approach = spring.approach(mesh, velocity);
-            rate = rate.max(approach / (APPROACH * spring.distance.max(DEEPEST * spring.stand)));
-            let z = spring.distance / spring.stand;
-            let inertia = spring.inertia(mesh);
-            let body = &mesh.bodies[spring.body];
-            let soon = spring.stand + approach * body.edge() / body.solid.sound;
-            if spring.distance < soon {
-                let stiffness = spring.area * spring.stiffness * Law::stiffness(z.min(1.0));
-                rate = rate.max((stiffness * inertia).sqrt() / spring.stand);
+            let start = &self.shell.lookouts[spring.from as usize].start;
+            let approach = spring.approach((mesh, contacts), start, velocity);
+            rate = rate.max(approach / (APPROACH * distance.max(DEEPEST * stand)));
+            let z = distance / stand;
+            let body = &mesh.bodies[spring.bodies[0] as usize];
+            let soon = stand + approach * body.edge() / body.solid.sound;
+            if z >= 1.0 && distance >= soon {
+                continue;
+            }
+            let inertia = spring.inertia((mesh, contacts), start);
+            let whole = area * spring.stiffness(mesh);
+            if distance < soon {
+                let stiffness = whole * Law::stiffness(z.min(1.0));
+                rate = rate.max((stiffness * inertia).sqrt() / stand);
             }
             if z >= 1.0 {
                 continue;
             }
-            spring.force = spring.area * spring.stiffness * Law::force(z) / spring.stand;
+            spring.force = whole * Law::force(z) / stand;
             if approach > 0.0 {
-                let (impedance, sound) = resistance(derived, spring);
-                let bodies = [spring.body, spring.other].map(|b| &mesh.bodies[b]);
+                let (impedance, sound) = resistance((derived, contacts), spring, start);
+                let bodies = spring.bodies.map(|b| &mesh.bodies[b as usize]);
                 let slope = 0.5 * (bodies[0].slope + bodies[1].slope);
                 let coefficient = impedance * steepness(method, approach, sound, slope);
                 spring.drag = coefficient * approach;
@@ -138,10 +148,17 @@ impl Surfaces {
                 touched[i] = true;
                 active[mesh.piece_of(i)] = true;
             };
-            spring.shares().for_each(|(i, share)| add(i, share * force, spring.way));
-            let tension = spring.tension();
-            for pull in spring.own_pulls(&self.pulls) {
-                add(pull.node, -tension, pull.slope);
+            let shares = spring.shares(contacts, start);
+            shares.for_each(|(i, share)| add(i, share * force, spring.way));
+            if !start.is_loose() {
+                let point = (spring.past.slot - start.slot) as usize;
+                let part = Part::of(places_of(contacts, &start.corners), POINTS[point]);
+                let (tension, slopes) = (spring.tension(mesh), part.slopes());
+                for (corner, slope) in start.corners.into_iter().zip(slopes) {
+                    add(contacts.particle(corner), -tension, slope);
+                }
+                spring.slopes = self.slopes.len() as u32;
+                put(&mut self.slopes, slopes);
             }
         }
         [rate, heat]
@@ -155,12 +172,11 @@ impl Surfaces {
         (mesh, contacts): (&Mesh, &Contacts),
         mut give: impl FnMut(usize, f64),
     ) -> f64 {
-        std::mem::swap(&mut self.springs, &mut self.before);
-        self.look(mesh, contacts, |_| {});
+        self.look((mesh, contacts), |_| {});
         let mut heat = 0.0;
-        let mut new = self.springs.iter_mut().peekable();
-        let begin = |spring: &mut Spring| spring.stand = spring.stand.min(spring.distance);
-        for old in &mut self.before {
+        let mut new = self.springs.iter_mut().map(|spring| &mut spring.past).peekable();
+        let begin = |spring: &mut Past| spring.stand = spring.stand.min(spring.distance);
+        for old in self.past.drain(..) {
             while let Some(spring) = new.next_if(|spring| spring.slot < old.slot) {
                 begin(spring);
             }
@@ -169,16 +185,18 @@ impl Surfaces {
                 continue;
             }
             let pressed = old.distance < old.stand;
-            let known = old.see(contacts);
+            let seen = Spring::again(&old, mesh, contacts);
             if let Some(spring) = same {
-                if known && spring.distance >= JUMP * old.distance {
+                let distance = seen.as_ref().map(|(_, seen)| seen.past.distance);
+                if distance.is_some_and(|distance| spring.distance >= JUMP * distance) {
                     continue;
                 }
                 begin(spring);
             }
-            if known && pressed {
-                let energy = old.energy();
-                old.shares().for_each(|(i, share)| give(i, 0.5 * share.abs() * energy));
+            if let Some((start, seen)) = seen.filter(|_| pressed) {
+                let energy = seen.energy(mesh);
+                let shares = seen.shares(contacts, &start);
+                shares.for_each(|(i, share)| give(i, 0.5 * share.abs() * energy));
                 heat += energy;
             }
         }
@@ -189,28 +207,30 @@ impl Surfaces {
     /// Bytes that it takes.
     #[must_use]
     pub fn bytes(&self) -> usize {
-        let springs = self.springs.capacity() + self.before.capacity();
-        self.nearest.capacity() * 16
-            + springs * std::mem::size_of::<Spring>()
-            + self.pulls.capacity() * std::mem::size_of::<Pull>()
+        self.shell.bytes()
+            + self.springs.capacity() * std::mem::size_of::<Spring>()
+            + self.past.capacity() * std::mem::size_of::<Past>()
+            + self.slopes.capacity() * std::mem::size_of::<[[f64; 3]; 4]>()
     }
 
     /// Viscous heat over the mean velocity of the step. Returns the work on the springs.
     pub fn work(
         &self,
-        mesh: &Mesh,
+        (mesh, contacts): (&Mesh, &Contacts),
         mean: impl Fn(usize) -> [f64; 3],
         dt: f64,
         heat: &mut [f64],
     ) -> f64 {
         let mut work = 0.0;
         for spring in self.springs.iter().filter(|spring| spring.force > 0.0) {
-            let way = dt * spring.approach(mesh, &mean);
+            let start = &self.shell.lookouts[spring.from as usize].start;
+            let way = dt * spring.approach((mesh, contacts), start, &mean);
             work += way * spring.force;
-            let pulls = spring.own_pulls(&self.pulls).iter();
-            let growth: f64 = pulls.map(|pull| dot(pull.slope, mean(pull.node))).sum();
-            work += dt * growth * spring.tension();
-            for (i, share) in spring.shares() {
+            let slopes = spring.own_slopes(&self.slopes).into_iter().flatten();
+            let corners = start.corners.map(|corner| contacts.particle(corner));
+            let growth: f64 = slopes.zip(corners).map(|(slope, i)| dot(*slope, mean(i))).sum();
+            work += dt * growth * spring.tension(mesh);
+            for (i, share) in spring.shares(contacts, start) {
                 heat[i] += 0.5 * share.abs() * spring.drag * way;
             }
         }
@@ -221,11 +241,11 @@ impl Surfaces {
     pub fn stored(&self, mesh: &Mesh, contacts: &Contacts) -> Vec<f64> {
         let mut all = vec![0.0; mesh.bodies.len()];
         let mut now = self.clone();
-        now.before.clone_from(&self.springs);
-        now.look(mesh, contacts, |_| {});
+        now.look((mesh, contacts), |_| {});
         for spring in &now.springs {
-            all[spring.body] += 0.5 * spring.energy();
-            all[spring.other] += 0.5 * spring.energy();
+            for body in spring.bodies {
+                all[body as usize] += 0.5 * spring.energy(mesh);
+            }
         }
         all
     }
@@ -237,75 +257,55 @@ impl Surfaces {
             return 0.0;
         }
         self.found = true;
-        self.renew((mesh, contacts), |i, energy| u[i] += energy / mesh.mass[i])
+        self.renew((mesh, contacts), |i, energy| u[i] += energy / mesh.mass(i))
     }
 
-    /// Finds the springs at the present positions, and tells of those that are too short to be one.
-    fn look(&mut self, mesh: &Mesh, contacts: &Contacts, mut short: impl FnMut(&Spring)) {
-        self.springs.clear();
-        self.pulls.clear();
+    /// Finds the springs at the present positions, and tells of those that are too short to be one. The
+    /// present ones become the past.
+    fn look(&mut self, (mesh, contacts): (&Mesh, &Contacts), mut short: impl FnMut(&Spring)) {
         if !self.some {
             return;
         }
-        self.find_nearest(mesh, contacts);
-        let Self { nearest, springs, before, pulls, .. } = self;
-        let mut look = |slot: usize, from: &Place, node: u32| {
-            let node = contacts.member(node as usize);
-            let Some(mut spring) = nearest_face((mesh, contacts), (slot, from), &node) else {
-                return;
-            };
-            let full = full_stand(mesh, [from.body, node.body]);
-            let old = before.binary_search_by_key(&slot, |old| old.slot);
-            let stand = old.map_or(0.0, |at| before[at].stand);
-            spring.stand = if stand < CLOSE * full {
-                spring.distance.min(full)
-            } else {
-                stand.max(spring.distance).min(full)
-            };
-            if !spring.measure(contacts, from, pulls) {
-                return;
-            }
-            if spring.stand < CLOSE * full {
-                short(&spring);
-            } else {
-                springs.push(spring);
-            }
-        };
-        for (member, &(_, node)) in nearest.iter().enumerate().filter(|(_, near)| near.1 != NONE) {
-            let one = contacts.member(member);
-            if !mesh.held(one.particle) {
-                look(PLACES * member, &Place::of(mesh, &one, 0), node);
-                continue;
-            }
-            each_face(mesh, one.body, one.place, |face, side| {
-                let corners = face.nodes.map(|node| contacts.find(node));
-                // Of the corners in front of something the first looks after the face.
-                let ahead = |corner: Option<usize>| corner.filter(|&c| nearest[c].1 != NONE);
-                if corners.iter().find_map(|&corner| ahead(corner)) != Some(member) {
-                    return;
+        let Self { shell, springs, past, .. } = self;
+        roomy(past, springs.len());
+        past.extend(springs.drain(..).map(|spring| spring.past));
+        shell.follow(mesh, contacts);
+        let mut before = past.iter().peekable();
+        for (from, lookout) in shell.lookouts.iter().enumerate() {
+            let Lookout { start, .. } = lookout;
+            let places = places_of(contacts, &start.corners);
+            for (point, at) in POINTS.into_iter().enumerate().take(start.points()) {
+                let Some((faces, other)) = shell.seen(contacts, lookout, point) else { continue };
+                let x = mean_of(&places, &start.shares(point));
+                let slot = start.slot + point as u32;
+                while before.next_if(|old| old.slot < slot).is_some() {}
+                let old = before.peek().filter(|old| old.slot == slot);
+                let likely = old.map(|old| old.face);
+                let Some((face, near)) = nearest_face(contacts, x, faces, likely) else {
+                    continue;
+                };
+                let mut spring = Spring::new((start, from), point, (face, other), &near);
+                let own = &mut spring.past;
+                let stand = old.map_or(0.0, |old| old.stand);
+                let full = full_stand(mesh, spring.bodies);
+                own.stand = if stand < CLOSE * full {
+                    own.distance.min(full)
+                } else {
+                    stand.max(own.distance).min(full)
+                };
+                if start.is_loose() {
+                    own.area = start.loose_area(mesh, contacts);
+                } else {
+                    let part = Part::of(places, at);
+                    own.area = part.area;
+                    if !spring.faces(&part) {
+                        continue;
+                    }
                 }
-                let Some(first) = corners[0] else { return };
-                for (point, &corner) in corners.iter().enumerate() {
-                    let from = Place { body: one.body, nodes: face.nodes, point: Some(point) };
-                    let slot = PLACES * first + 1 + POINTS.len() * (side / 2) + point;
-                    look(slot, &from, ahead(corner).map_or(node, |corner| nearest[corner].1));
-                }
-            });
-        }
-        springs.sort_unstable_by_key(|spring| spring.slot);
-    }
-
-    /// Finds the nearest node of another body's live surface to every member.
-    fn find_nearest(&mut self, mesh: &Mesh, contacts: &Contacts) {
-        self.nearest.clear();
-        self.nearest.resize(contacts.members(), (f64::INFINITY, NONE));
-        for &[a, b] in contacts.facing() {
-            let (one, other) = (contacts.position(a), contacts.position(b));
-            let square = (0..3).map(|d| (one[d] - other[d]).powi(2)).sum();
-            for (member, node) in [(a, b), (b, a)] {
-                let nearest = &mut self.nearest[member as usize];
-                if square < nearest.0 && mesh.held(contacts.particle(node)) {
-                    *nearest = (square, node);
+                if spring.past.stand < CLOSE * full {
+                    short(&spring);
+                } else {
+                    put(springs, spring);
                 }
             }
         }
@@ -313,39 +313,50 @@ impl Surfaces {
 }
 
 /// Distance at which the surfaces of two bodies feel each other.
-fn full_stand(mesh: &Mesh, bodies: [usize; 2]) -> f64 {
-    0.5 * STAND * (mesh.bodies[bodies[0]].edge() + mesh.bodies[bodies[1]].edge())
+fn full_stand(mesh: &Mesh, bodies: [u16; 2]) -> f64 {
+    let edges = bodies.map(|body| mesh.bodies[body as usize].edge());
+    0.5 * STAND * (edges[0] + edges[1])
 }
 
 /// Impedance times area, and sound speed: means of the point and the surface. Each of the two surfaces
 /// stands for half of the area.
-fn resistance(derived: &Derived, spring: &Spring) -> (f64, f64) {
+fn resistance(
+    (derived, contacts): (&Derived, &Contacts),
+    spring: &Spring,
+    start: &Start,
+) -> (f64, f64) {
     let (mut impedance, mut sound) = (0.0, 0.0);
-    for (i, share) in spring.shares() {
+    for (i, share) in spring.shares(contacts, start) {
         let share = 0.5 * share.abs();
         impedance += share * derived.rho[i] * derived.sound[i];
         sound += share * derived.sound[i];
     }
-    (0.5 * spring.area * impedance, sound)
+    (0.5 * spring.past.area * impedance, sound)
 }
 
-/// The spring on the nearest of the faces round a node.
+/// The nearest point of some faces, the first of equals. It is sought first on a face where it is likely.
 fn nearest_face(
-    (mesh, contacts): (&Mesh, &Contacts),
-    (slot, from): (usize, &Place),
-    node: &Member,
-) -> Option<Spring> {
-    let x = place_of(contacts, &from.own())?;
-    let mut best: Option<(Nearest, Face)> = None;
-    each_face(mesh, node.body, node.place, |face, _| {
-        let Some(corners) = corners_of(contacts, &face) else { return };
-        let near = Nearest::of(x, corners);
-        if best.as_ref().is_none_or(|(best, _)| near.square < best.square) {
-            best = Some((near, face));
-        }
+    contacts: &Contacts,
+    x: [f64; 3],
+    faces: impl Iterator<Item = Corners> + Clone,
+    likely: Option<Corners>,
+) -> Option<(Corners, Nearest)> {
+    let faces = faces.enumerate();
+    let mut best = faces.clone().find(|&(_, face)| Some(face) == likely).map(|(place, face)| {
+        let near = Nearest::of(x, places_of(contacts, &face));
+        (near, place, face)
     });
-    let (near, face) = best.filter(|(near, _)| near.square > 0.0)?;
-    let mut spring = Spring::new(mesh, slot, from, (face, node.body));
-    spring.lie(&near);
-    Some(spring)
+    for (place, face) in faces {
+        let (limit, known) = best.map_or((f64::INFINITY, None), |(n, at, _)| (n.square, Some(at)));
+        if known == Some(place) {
+            continue;
+        }
+        let near = Nearest::within(x, places_of(contacts, &face), limit);
+        let earlier = known.is_some_and(|known| place < known);
+        best = near
+            .filter(|near| near.square < limit || near.square == limit && earlier)
+            .map(|near| (near, place, face))
+            .or(best);
+    }
+    best.filter(|(near, ..)| near.square > 0.0).map(|(near, _, face)| (face, near))
 }

@@ -1,6 +1,8 @@
 //! Springs between points of a body and the surface of another.
 
-use super::face::{Face, Nearest, POINTS, Part, bilinear, corners_of, dot, face_across, place_of};
+use super::face::{
+    Corners, Nearest, POINTS, Part, bilinear, corners_of, dot, face_across, mean_of, places_of,
+};
 use crate::space::contacts::{Contacts, Member};
 use crate::space::mesh::{Body, Mesh};
 
@@ -18,6 +20,9 @@ pub(super) const PLACES: usize = 13;
 
 /// Least cosine between the way of a spring and the normal of a face from whose middle it starts.
 const FACING: f64 = 0.5;
+
+/// No gradient of an area.
+const FIXED: u32 = u32::MAX;
 
 /// Energy, force and stiffness of a spring of unit stiffness and length at a distance below one:
 /// `(1 - z)^2 / (2 z)`, whose force rises no more below [`DEEPEST`].
@@ -43,173 +48,198 @@ impl Law {
     }
 }
 
-/// A point of a body in front of a surface, in touch with it or not: a loose particle, or one of a face.
+/// Where springs start: a loose particle, or the points of a face.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Spring {
+pub(super) struct Start {
+    /// First of their places among those of all members.
+    pub(super) slot: u32,
+    /// Corners of the face, or the particle.
+    pub(super) corners: Corners,
+    pub(super) body: u16,
+}
+
+impl Start {
+    /// Of a member, the springs at one of its places; none if that is on no face of members.
+    pub(super) fn at(mesh: &Mesh, contacts: &Contacts, slot: u32) -> Option<Self> {
+        let (member, place) = (slot as usize / PLACES, slot as usize % PLACES);
+        let Member { body, place: lowest, .. } = contacts.member(member);
+        let Some(place) = place.checked_sub(1) else { return Some(Self::loose(member, body)) };
+        let axis = place / POINTS.len();
+        let nodes = face_across(&mesh.bodies[body], lowest, axis);
+        if nodes.iter().any(|&node| node >= mesh.first_centroid) {
+            return None;
+        }
+        let corners = corners_of(contacts, &nodes)?;
+        Some(Self::face(corners, axis, body))
+    }
+
+    /// Of a loose particle.
+    pub(super) fn loose(member: usize, body: usize) -> Self {
+        Self { slot: (PLACES * member) as u32, corners: [member as u32; 4], body: body as u16 }
+    }
+
+    /// Of a face across an axis.
+    pub(super) fn face(corners: Corners, axis: usize, body: usize) -> Self {
+        let slot = PLACES * corners[0] as usize + 1 + POINTS.len() * axis;
+        Self { slot: slot as u32, corners, body: body as u16 }
+    }
+
+    #[inline(always)]
+    pub(super) fn is_loose(&self) -> bool {
+        self.slot.is_multiple_of(PLACES as u32)
+    }
+
+    /// How many points it has.
+    pub(super) fn points(&self) -> usize {
+        if self.is_loose() { 1 } else { POINTS.len() }
+    }
+
+    /// Shares of the corners in a point.
+    #[inline(always)]
+    pub(super) fn shares(&self, point: usize) -> [f64; 4] {
+        if self.is_loose() { [1.0, 0.0, 0.0, 0.0] } else { bilinear(POINTS[point]) }
+    }
+
+    /// Area that a loose particle acts for: what one of its mass has of a flat surface.
+    pub(super) fn loose_area(&self, mesh: &Mesh, contacts: &Contacts) -> f64 {
+        let body = &mesh.bodies[self.body as usize];
+        4.0 * mesh.mass(contacts.particle(self.corners[0])) / (body.rho_0 * body.edge())
+    }
+}
+
+/// What is kept of a spring from step to step.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Past {
     /// Its place among those of all members.
-    pub(super) slot: usize,
-    /// The particles that it is a mean of, and their shares.
-    pub(super) own: [(usize, f64); 4],
-    pub(super) body: usize,
-    /// Body of the surface.
-    pub(super) other: usize,
-    pub(super) face: Face,
-    /// Shares of the corners in the nearest point.
-    pub(super) share: [f64; 4],
-    /// Unit vector from the surface to the point.
-    pub(super) way: [f64; 3],
+    pub(super) slot: u32,
+    /// Corners of the face that it ends on.
+    pub(super) face: Corners,
     pub(super) distance: f64,
-    /// Distance at which the spring begins.
+    /// Distance at which it begins.
     pub(super) stand: f64,
     /// Area that the point acts for.
     pub(super) area: f64,
-    /// Its pulls, among those of all springs.
-    pub(super) pulls: [u32; 2],
-    /// Stiffness, an energy over area.
-    pub(super) stiffness: f64,
+}
+
+/// A point of a body in front of a surface, in touch with it or not: a loose particle, or one of a face.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Spring {
+    pub(super) past: Past,
+    /// Where it starts, among all such places.
+    pub(super) from: u32,
+    /// Gradient of its area, among those of all pressed faces.
+    pub(super) slopes: u32,
+    /// The own body, and that of the surface.
+    pub(super) bodies: [u16; 2],
+    /// The nearest point of the face, from 0 to 1 along both sides.
+    at: [f64; 2],
+    /// Unit vector from the surface to the point.
+    pub(super) way: [f64; 3],
     pub(super) force: f64,
     /// Viscous force.
     pub(super) drag: f64,
 }
 
-/// How the area that a point acts for changes as a node of its surface moves.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Pull {
-    pub(super) node: usize,
-    /// Gradient of the area.
-    pub(super) slope: [f64; 3],
-}
-
 impl Spring {
-    /// From a place of a body's surface to a face of another one, to be seen yet.
-    pub(super) fn new(mesh: &Mesh, slot: usize, from: &Place, to: (Face, usize)) -> Self {
-        let (face, other) = to;
-        let first = &mesh.bodies[from.body];
-        let soft = |body: &Body| 1.0 / (body.rho_0 * body.solid.sound.powi(2));
-        let series = 1.0 / (soft(first) + soft(&mesh.bodies[other]));
+    /// From one of the points of a start, number `from` of all, to the nearest point of a face of a body.
+    pub(super) fn new(
+        (start, from): (&Start, usize),
+        point: usize,
+        (face, other): (Corners, usize),
+        near: &Nearest,
+    ) -> Self {
+        let distance = near.square.sqrt();
+        let slot = start.slot + point as u32;
         Self {
-            slot,
-            own: from.own(),
-            body: from.body,
-            other,
-            face,
-            share: [0.0; 4],
-            way: [0.0; 3],
-            distance: f64::INFINITY,
-            stand: 0.0,
-            // A loose particle acts for what one of its mass has of a flat surface.
-            area: 4.0 * mesh.mass[from.nodes[0]] / (first.rho_0 * first.edge()),
-            pulls: [0; 2],
-            stiffness: STIFFNESS * first.edge() * series,
+            past: Past { slot, face, distance, stand: 0.0, area: 0.0 },
+            from: from as u32,
+            slopes: FIXED,
+            bodies: [start.body, other as u16],
+            at: near.at,
+            way: near.r.map(|r| r / distance),
             force: 0.0,
             drag: 0.0,
         }
     }
 
-    pub(super) fn energy(&self) -> f64 {
-        self.area * self.tension()
+    /// A spring of the past as it is now, and where it starts.
+    pub(super) fn again(past: &Past, mesh: &Mesh, contacts: &Contacts) -> Option<(Start, Self)> {
+        let start = Start::at(mesh, contacts, past.slot)?;
+        let point = (past.slot - start.slot) as usize;
+        let x = mean_of(&places_of(contacts, &start.corners), &start.shares(point));
+        let near = Nearest::of(x, places_of(contacts, &past.face));
+        let other = contacts.member(past.face[0] as usize).body;
+        let mut spring = Self::new((&start, 0), point, (past.face, other), &near);
+        (spring.past.stand, spring.past.area) = (past.stand, past.area);
+        Some((start, spring))
+    }
+
+    pub(super) fn energy(&self, mesh: &Mesh) -> f64 {
+        self.past.area * self.tension(mesh)
     }
 
     /// Energy over area.
-    pub(super) fn tension(&self) -> f64 {
-        self.stiffness * Law::energy(self.distance / self.stand)
+    pub(super) fn tension(&self, mesh: &Mesh) -> f64 {
+        self.stiffness(mesh) * Law::energy(self.past.distance / self.past.stand)
     }
 
-    /// Its own pulls among all.
-    pub(super) fn own_pulls<'a>(&self, pulls: &'a [Pull]) -> &'a [Pull] {
-        &pulls[self.pulls[0] as usize..self.pulls[1] as usize]
+    /// Stiffness, an energy over area.
+    pub(super) fn stiffness(&self, mesh: &Mesh) -> f64 {
+        let [first, other] = self.bodies.map(|body| &mesh.bodies[body as usize]);
+        let soft = |body: &Body| 1.0 / (body.rho_0 * body.solid.sound.powi(2));
+        let series = 1.0 / (soft(first) + soft(other));
+        STIFFNESS * first.edge() * series
     }
 
     /// Inverse of the mass that moves with it. With a point of a face all others round a corner push that:
     /// as much area as a node of a flat surface has.
-    pub(super) fn inertia(&self, mesh: &Mesh) -> f64 {
-        if self.own[1].1 == 0.0 {
-            return self.shares().map(|(i, share)| share * share / mesh.mass[i]).sum();
+    pub(super) fn inertia(&self, (mesh, contacts): (&Mesh, &Contacts), start: &Start) -> f64 {
+        if start.is_loose() {
+            let shares = self.shares(contacts, start);
+            return shares.map(|(i, share)| share * share / mesh.mass(i)).sum();
         }
-        let per_area = |body: usize| 4.0 / (mesh.bodies[body].rho_0 * mesh.bodies[body].edge());
-        let area = mesh.bodies[self.body].edge().powi(2) / POINTS.len() as f64;
-        (per_area(self.body) + per_area(self.other)) / area
+        let bodies = self.bodies.map(|body| &mesh.bodies[body as usize]);
+        let per_area = bodies.map(|body| 4.0 / (body.rho_0 * body.edge()));
+        let area = bodies[0].edge().powi(2) / POINTS.len() as f64;
+        (per_area[0] + per_area[1]) / area
     }
 
     /// Velocity of the point towards the surface.
-    pub(super) fn approach(&self, mesh: &Mesh, velocity: impl Fn(usize) -> [f64; 3]) -> f64 {
-        let mut relative = mesh.drift_of(self.body, self.other);
-        for (i, share) in self.shares() {
+    #[inline(always)]
+    pub(super) fn approach(
+        &self,
+        (mesh, contacts): (&Mesh, &Contacts),
+        start: &Start,
+        velocity: impl Fn(usize) -> [f64; 3],
+    ) -> f64 {
+        let [body, other] = self.bodies.map(usize::from);
+        let mut relative = mesh.drift_of(body, other);
+        for (i, share) in self.shares(contacts, start) {
             relative.iter_mut().zip(velocity(i)).for_each(|(v, u)| *v += share * u);
         }
         -dot(self.way, relative)
     }
 
     /// Particles that take part, with their shares of the force.
-    pub(super) fn shares(&self) -> impl Iterator<Item = (usize, f64)> {
-        let own = self.own.into_iter().filter(|own| own.1 > 0.0);
-        own.chain(self.face.nodes.into_iter().zip(self.share.map(|share| -share)))
-    }
-}
-
-impl Spring {
-    /// Finds the area that a point of a face acts for and, if it is pressed, how that changes. Returns
-    /// whether the point faces the other body.
-    pub(super) fn measure(
-        &mut self,
+    #[inline(always)]
+    pub(super) fn shares(
+        &self,
         contacts: &Contacts,
-        from: &Place,
-        pulls: &mut Vec<Pull>,
-    ) -> bool {
-        self.pulls = [pulls.len() as u32; 2];
-        let Some(point) = from.point else { return true };
-        let Some(corners) = corners_of(contacts, &Face { nodes: from.nodes }) else {
-            return false;
-        };
-        let part = Part::of(corners, POINTS[point]);
-        self.area = part.area;
-        if self.distance < self.stand {
-            let slopes = from.nodes.into_iter().zip(part.slopes());
-            pulls.extend(slopes.map(|(node, slope)| Pull { node, slope }));
-            self.pulls[1] = pulls.len() as u32;
-        }
+        start: &Start,
+    ) -> impl Iterator<Item = (usize, f64)> {
+        let own = start.shares((self.past.slot - start.slot) as usize);
+        let own = start.corners.into_iter().zip(own).filter(|own| own.1 > 0.0);
+        let face = self.past.face.into_iter().zip(bilinear(self.at).map(|share| -share));
+        own.chain(face).map(|(member, share)| (contacts.particle(member), share))
+    }
+
+    /// Whether a part of a face, from whose point it starts, faces the other body.
+    pub(super) fn faces(&self, part: &Part) -> bool {
         dot(part.normal, self.way).abs() > FACING
     }
 
-    /// Finds the nearest point of the face. Returns whether the positions are known.
-    pub(super) fn see(&mut self, contacts: &Contacts) -> bool {
-        let known = corners_of(contacts, &self.face).zip(place_of(contacts, &self.own));
-        known.inspect(|&(corners, x)| self.lie(&Nearest::of(x, corners))).is_some()
-    }
-
-    /// Takes the nearest point.
-    pub(super) fn lie(&mut self, near: &Nearest) {
-        self.share = bilinear(near.at);
-        self.distance = near.square.sqrt();
-        self.way = near.r.map(|r| r / self.distance);
-    }
-}
-
-/// Where a spring starts: a particle, or a point of a face.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Place {
-    pub(super) body: usize,
-    /// Corners of the face, or the particle.
-    pub(super) nodes: [usize; 4],
-    /// Which of the points; none is the particle.
-    pub(super) point: Option<usize>,
-}
-
-impl Place {
-    /// Of a member, by the number among its places.
-    pub(super) fn of(mesh: &Mesh, one: &Member, place: usize) -> Self {
-        let body = one.body;
-        match place.checked_sub(1) {
-            None => Self { body, nodes: [one.particle; 4], point: None },
-            Some(at) => {
-                let face = face_across(&mesh.bodies[body], one.place, at / POINTS.len());
-                Self { body, nodes: face.nodes, point: Some(at % POINTS.len()) }
-            }
-        }
-    }
-
-    pub(super) fn own(&self) -> [(usize, f64); 4] {
-        let share = self.point.map_or([1.0, 0.0, 0.0, 0.0], |point| bilinear(POINTS[point]));
-        std::array::from_fn(|k| (self.nodes[k], share[k]))
+    /// Its gradient of the area among those of all, of the corners of its face.
+    pub(super) fn own_slopes<'a>(&self, all: &'a [[[f64; 3]; 4]]) -> Option<&'a [[f64; 3]; 4]> {
+        all.get(self.slopes as usize)
     }
 }
