@@ -314,6 +314,10 @@ impl Case for Saltzman {
         ]
     }
 
+    fn tabulates_errors(&self) -> bool {
+        false
+    }
+
     fn figures(&self, records: &Records) -> Vec<Figure> {
         let title = |variant: &'static str| if variant.is_empty() { "skewed" } else { variant };
         let mut panels = Vec::new();
