@@ -191,7 +191,8 @@ impl Default for Failure {
     }
 }
 
-/// A body: a shape, filled with equal cells, particles at their nodes and centroids.
+/// A body: a shape, filled with cells, equal ones unless they are mapped; particles at their nodes and
+/// centroids.
 ///
 /// The cell size is such that the cells have exactly the volume of the shape.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -300,7 +301,7 @@ impl Shape {
     }
 }
 
-/// Longest edge of a cell over its shortest: particles are spheres, which unequal edges would not
+/// Longest edge of equal cells over the shortest: particles are spheres, which unequal edges would not
 /// pack.
 const LONGEST_EDGE: f64 = 1.1;
 
