@@ -68,7 +68,9 @@ proptest! {
     }
 
     /// The same for one evaluation of the rates, without the compatible integrator's help: what
-    /// one step of the midpoint rule misses falls at least with the square of the step.
+    /// one step of the midpoint rule misses falls at least with the square of the step. A contact or a
+    /// limiter that switches within the first step that is long enough spoils that comparison, and no
+    /// shorter one.
     #[test]
     fn powers_balance_at_every_instant(scene in gas_or_blocks()) {
         let mut scene = scene;
@@ -77,11 +79,14 @@ proptest! {
             let mut solver = start(&scene);
             solver.step(dt).map(|()| (solver.time(), energy_error(solver.as_ref())))
         };
-        let (Ok((t, coarse)), Ok((_, fine))) = (missed(1e-2), missed(1e-3)) else {
+        let (Ok((t, coarse)), Ok((_, fine)), Ok((_, finest))) =
+            (missed(1e-2), missed(1e-3), missed(1e-4))
+        else {
             return Ok(());
         };
         prop_assume!(t == 1e-2);
-        prop_assert!(fine < coarse / 30.0 + 1e-14, "{coarse:e} {fine:e}");
+        let falls = |from: f64, to: f64| to < from / 30.0 + 1e-14;
+        prop_assert!(falls(coarse, fine) || falls(fine, finest), "{coarse:e} {fine:e} {finest:e}");
     }
 
     /// Pair forces are opposite and equal: momentum of a free chain is kept to round-off.

@@ -172,8 +172,9 @@ impl Case for Spall {
             // Not a number if the run was cut short.
             let indicated = 0.5 * exact.impedance() * fall;
             findings.enter("indicated_over_strength", indicated / STRENGTH);
-            findings
-                .enter("depth_error_cells", (0.5 * (least + most) - exact.spall_depth()) / edge);
+            // Centroids lie in the middle of cells: halves, to the bit.
+            let depth = 0.5 * ((least + most) / edge).round();
+            findings.enter("depth_error_cells", depth - exact.spall_depth() / edge);
             findings.enter("opened_cells", (last[1] - last[0]) / edge + 1.0);
             let time = first.map_or(f64::NAN, |(time, _)| time);
             findings.enter("time_error", time / exact.spall_time() - 1.0);

@@ -30,7 +30,7 @@ fn colliding_fluid() {
 
 #[test]
 fn rod_on_a_plate() {
-    let simulation = after(&rod(4, 16, [14, 4, 8]), 250);
+    let simulation = after(&rod(4, 16, [14, 4, 8]), 320);
     assert!(simulation.failed().1 > 5, "elements die");
     lost(&simulation, [1e-13, 1e-12, 1e-12, 1e-2]);
 }

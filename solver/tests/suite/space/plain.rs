@@ -99,6 +99,6 @@ fn the_fast_step_is_the_plain_step() {
 /// Everything that the default has, on a finer rod.
 #[test]
 fn the_default_step_is_the_plain_step() {
-    let plain = compare(&rod(5, 15, [14, 5, 10]), 120, [1e-8; 2]);
+    let plain = compare(&rod(5, 15, [14, 5, 10]), 160, [1e-8; 2]);
     assert!(plain.touches > 1000 && plain.deaths > 0);
 }
