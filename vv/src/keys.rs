@@ -14,8 +14,9 @@ const LINE: [&str; 2] =
     [include_str!("../../solver/src/scene.rs"), include_str!("../../solver/src/method.rs")];
 
 /// Sources of the data of a scene in space, the nearest first; choices are shared.
-const SPACE: [&str; 3] = [
+const SPACE: [&str; 4] = [
     include_str!("../../solver/src/space/scene.rs"),
+    include_str!("../../solver/src/space/mapping.rs"),
     include_str!("../../solver/src/space/method.rs"),
     include_str!("../../solver/src/method.rs"),
 ];
@@ -138,6 +139,9 @@ fn unit(path: &[&str], units: Units) -> String {
         "theta_0" | "melt" | "reference" if units != Units::None => label(D::Temperature),
         "c_v" => per(label(D::SpecificEnergy), D::Temperature),
         "spin" | "rate_0" => per(String::new(), D::Time),
+        "radius" | "zero" => label(D::Length),
+        // Of a skewed lattice it is a way over a distance.
+        "slope" if above.last() == Some(&"skew") => String::new(),
         "slope" => per(unit(above, units), D::Length),
         "degrees" => "degrees".into(),
         // How a field is spread says nothing of what it is.
