@@ -1056,9 +1056,9 @@ impl Plain {
                     dot(made, amplitude(mode, |slot| mean[slot]))
                 })
                 .sum();
-            for slot in 0..9 {
-                let share = if slot == 8 { 0.5 } else { 0.0625 };
-                self.particles[slots[slot]].heat += share * kick * self.drag(e) * power;
+            let warmth = kick * self.drag(e) * power;
+            for (slot, &i) in slots.iter().enumerate() {
+                self.particles[i].heat += if slot == 8 { 0.5 } else { 0.0625 } * warmth;
             }
             for face in faces() {
                 let slopes = pyramid_gradient(&now, face);
