@@ -135,7 +135,8 @@ pub(super) fn check(body: &BodyData, balance: f64, key: &str) -> Result<(), Scen
                 format!("edges of a cell may differ by a factor of {LONGEST_EDGE} at most");
             return refuse("the ratio of edges", stretch, &wanted);
         }
-        let lightest = corner_volumes(&shape.pyramids, balance).into_iter().fold(1.0, f64::min);
+        let lightest =
+            corner_volumes(&shape.pyramids, balance).into_iter().fold(f64::INFINITY, f64::min);
         let lightest = 16.0 * lightest / shape.volume();
         if lightest < LIGHTEST {
             let wanted = format!("a corner needs {LIGHTEST} of a sixteenth of its cell");
@@ -351,6 +352,21 @@ impl<'a, const MAPPED: bool> Cells<'a, MAPPED> {
         } else {
             F::splat(self.body.length * self.body.length)
         }
+    }
+
+    /// Sum of the squares of the weights of the corners in the gradient along an axis of the lattice.
+    #[inline(always)]
+    #[must_use]
+    pub fn gradient_squared<F: Lanes>(&self, axis: usize) -> F {
+        if !MAPPED {
+            return F::splat(0.5 / self.body.lattice.size[axis].powi(2));
+        }
+        let mut sum = F::zero();
+        for slot in 0..8 {
+            let weight: F = self.weight(slot, axis);
+            sum += weight * weight;
+        }
+        sum
     }
 
     /// Weight of a corner in the mean gradient along an axis of the lattice, of mapped cells.

@@ -490,15 +490,6 @@ impl Body {
         self.solid.edge
     }
 
-    /// Rate of damping of a particle inside per viscosity coefficient of its eight bonds, among cells of
-    /// this volume.
-    #[inline(always)]
-    #[must_use]
-    pub fn damping(&self, volume: f64) -> f64 {
-        let mass = 0.5 * self.rho_0 * volume;
-        2.0 / 3.0 * 8.0 / mass
-    }
-
     /// Whether it is a gas: its elements carry no tension, and it has no shape of its own.
     #[inline(always)]
     #[must_use]

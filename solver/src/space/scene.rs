@@ -308,6 +308,9 @@ const LONGEST_EDGE: f64 = 1.1;
 /// Most particles of a scene.
 const MAX_PARTICLES: usize = 50_000_000;
 
+/// Most particles of a mapped body, every cell of which is looked at beforehand.
+const MAX_MAPPED: usize = 2_000_000;
+
 impl Scene {
     /// Index of the material called `name`.
     #[must_use]
@@ -493,8 +496,14 @@ impl Body {
                     wanted,
                 ));
             }
+            let particles = self.most_particles();
+            if particles > MAX_MAPPED {
+                let wanted = format!("{MAX_MAPPED} particles are the most of a mapped body");
+                let given = format!("{particles} particles");
+                return Err(SceneError::new(format!("{key}.cells"), given, &wanted));
+            }
             super::cells::check(self, balance, key)?;
-            return Ok(self.most_particles());
+            return Ok(particles);
         }
         let size = super::lattice::cell_size(self);
         let longest = size.iter().copied().fold(0.0, f64::max);
@@ -517,7 +526,7 @@ impl Body {
 
     /// An upper bound of its particles.
     fn most_particles(&self) -> usize {
-        self.cells.iter().map(|n| n + 1).product::<usize>() * 2
+        self.cells.iter().fold(2, |all: usize, n| all.saturating_mul(n.saturating_add(1)))
     }
 }
 

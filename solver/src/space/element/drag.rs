@@ -6,36 +6,33 @@ use super::{V3, cross, dot};
 use crate::space::cells::Cells;
 use crate::space::hourglass::{corners, modes, resist};
 use crate::space::lanes::{Lanes, Mask};
+use crate::space::mesh::Group;
 use crate::space::method::Method;
 
 /// Least volume ratio by which the shape of a cell is undone; one below is dying.
 const LEAST: f64 = 1e-2;
 
 /// Coefficient of the drag on the rates of the amplitudes, `kappa rho_o V_o^(2/3) c` with the sound speed
-/// of the centroid, of live elements. A method has none, or none for a body with strength; a gas has
-/// none, where pyramids resist (decision 0017).
+/// of the centroid, of elements that are volumes after the step too. What a solid has lost of its
+/// strength has the drag of those without. A gas has none: there pyramids resist (decision 0017).
 #[inline(always)]
 pub(super) fn coefficient<F: Lanes, const MAPPED: bool>(
     method: &Method,
-    cells: &Cells<'_, MAPPED>,
-    (sound, live): (impl FnOnce() -> F, Mask),
+    (group, cells): (&Group, &Cells<'_, MAPPED>),
+    sound: impl FnOnce() -> F,
 ) -> Option<F> {
     let body = cells.body;
-    let strong = body.solid.mu > 0.0;
-    let kappa = if strong { method.visc_hourglass_strong } else { method.visc_hourglass };
-    if kappa == 0.0 || body.is_gas() {
+    let [plain, strong] = [method.visc_hourglass, method.visc_hourglass_strong];
+    let solid = body.solid.mu > 0.0;
+    let whole = solid && group.failed & group.live == 0;
+    if body.is_gas() || plain == 0.0 && strong == 0.0 || whole && strong == 0.0 {
         return None;
     }
+    let lost = if solid { F::of(group.damage) } else { F::splat(1.0) };
+    let kappa = lost * (plain - strong) + strong;
     // The area of the bonds is 3/4 of a face's.
-    let face: F = cells.bond_area_as(0, |area| 4.0 / 3.0 * kappa * body.rho_0 * area);
-    Some((sound() * face).keep(live))
-}
-
-/// Rate at which a mode is damped with this coefficient.
-#[inline(always)]
-pub(super) fn rate<F: Lanes, const MAPPED: bool>(coefficient: F, cells: &Cells<'_, MAPPED>) -> F {
-    // Half of the mass of a cell is at its corners.
-    coefficient * cells.volume_as::<F>(|volume| 2.0 / (cells.body.rho_0 * volume))
+    let face: F = cells.bond_area_as(0, |area| 4.0 / 3.0 * body.rho_0 * area);
+    Some((sound() * kappa * face).keep(group.live & !group.dying))
 }
 
 /// The hourglass modes of cells as they are: the weights of D. P. Flanagan and T. Belytschko (1981), by
@@ -44,6 +41,8 @@ pub(super) fn rate<F: Lanes, const MAPPED: bool>(coefficient: F, cells: &Cells<'
 pub(super) struct Warp<F> {
     /// Amplitudes of position, through the inverse of the deformation: along the lattice axes, by mode.
     back: [V3<F>; 4],
+    /// Where there is such an inverse.
+    regular: Mask,
 }
 
 impl<F: Lanes> Warp<F> {
@@ -62,7 +61,8 @@ impl<F: Lanes> Warp<F> {
         }
         let [a, b, c] = along;
         let across = [cross(&b, &c), cross(&c, &a), cross(&a, &b)];
-        let inverse = F::splat(1.0) / dot(&a, &across[0]).max(F::splat(LEAST));
+        let (jacobian, least) = (dot(&a, &across[0]), F::splat(LEAST));
+        let inverse = F::splat(1.0) / jacobian.max(least);
         let warp = amplitudes(y);
         let mut back = [[F::zero(); 3]; 4];
         for (back, warp) in back.iter_mut().zip(&warp) {
@@ -70,7 +70,7 @@ impl<F: Lanes> Warp<F> {
                 *back = dot(across, warp) * inverse;
             }
         }
-        Self { back }
+        Self { back, regular: jacobian.gt(least) }
     }
 
     /// Rates of the amplitudes, but for what a linear field makes of them.
@@ -100,6 +100,7 @@ impl<F: Lanes> Warp<F> {
         (cells, coefficient): (&Cells<'_, MAPPED>, F),
         force: &mut [V3<F>; 9],
     ) {
+        let coefficient = coefficient.keep(self.regular);
         let mut flow = [[F::zero(); 3]; 3];
         for (rates, back) in rates.iter().zip(&self.back) {
             for (flow, back) in flow.iter_mut().zip(back) {
@@ -119,18 +120,34 @@ impl<F: Lanes> Warp<F> {
             }
         }
     }
-}
 
-/// What forces against `made` take from motion per time, with rates `mean`.
-#[inline(always)]
-pub(super) fn power<F: Lanes>(made: &[V3<F>; 4], mean: &[V3<F>; 4]) -> F {
-    let mut sum = F::zero();
-    for (made, mean) in made.iter().zip(mean) {
-        sum += dot(made, mean);
+    /// What forces with this coefficient against rates `made` take from motion per time, with rates `mean`.
+    #[inline(always)]
+    pub(super) fn power(&self, made: &[V3<F>; 4], mean: &[V3<F>; 4], coefficient: F) -> F {
+        let mut sum = F::zero();
+        for (made, mean) in made.iter().zip(mean) {
+            sum += dot(made, mean);
+        }
+        sum * coefficient.keep(self.regular)
     }
-    sum
-}
 
+    /// A bound of the rate at which a mode is damped with this coefficient. Half of the mass of a cell is at
+    /// its corners; the part of the weights that undoes a linear field adds to them in a warped cell.
+    #[inline(always)]
+    pub(super) fn rate<const MAPPED: bool>(&self, coefficient: F, cells: &Cells<'_, MAPPED>) -> F {
+        let mut added = F::zero();
+        for axis in 0..3 {
+            // Eight times the sum of the squares of the weights of the gradient.
+            let weights = cells.gradient_squared::<F>(axis) * 8.0;
+            for back in &self.back {
+                added += back[axis] * back[axis] * weights;
+            }
+        }
+        let bound = if MAPPED { added * 2.0 + 2.0 } else { added + 1.0 };
+        let rate = coefficient * cells.volume_as::<F>(|volume| 2.0 / (cells.body.rho_0 * volume));
+        (rate * bound).keep(self.regular)
+    }
+}
 #[inline(always)]
 fn amplitudes<F: Lanes>(u: &[V3<F>; 9]) -> [V3<F>; 4] {
     let mut out = [[F::zero(); 3]; 4];

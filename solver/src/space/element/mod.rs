@@ -196,11 +196,11 @@ impl Group {
                 Viscosity::Limited => self.limited(&seen, (cells, laws, read), &mut loads),
                 Viscosity::Pairwise => self.pairwise(&seen, (cells, laws), &mut loads),
             };
-            let moved = (|| sound[CENTRE], live);
-            if let Some(coefficient) = drag::coefficient(&laws.method, cells, moved) {
+            let own = (&*self, cells);
+            if let Some(coefficient) = drag::coefficient(&laws.method, own, || sound[CENTRE]) {
                 let warp = Warp::new(&u, &y, cells);
                 warp.push(&warp.rates(&v, cells), (cells, coefficient), &mut loads.force);
-                damping += drag::rate(coefficient, cells);
+                damping += warp.rate(coefficient, cells);
             }
             if self.stiff.is_some() {
                 let of = (&seen, cells, &laws.method);
@@ -279,13 +279,12 @@ impl Group {
                 heat[CENTRE] += half;
             }
             let sound = || F::load_some(centres.1.sound, self.centre as usize - first[1]);
-            let moved = (sound, self.live);
-            if let Some(coefficient) = drag::coefficient(&laws.method, cells, moved) {
+            if let Some(coefficient) = drag::coefficient(&laws.method, (self, cells), sound) {
                 let made: [V3<F>; 9] =
                     self.gather_own(nodes.0.velocity(), centres.0.velocity(), first);
                 let warp = Warp::new(&u, &y, cells);
                 let (made, mean) = (warp.rates(&made, cells), warp.rates(&v, cells));
-                let warmth = drag::power(&made, &mean) * coefficient * laws.dt;
+                let warmth = warp.power(&made, &mean, coefficient) * laws.dt;
                 heat[CENTRE] += warmth * 0.5;
                 for heat in &mut heat[..CENTRE] {
                     *heat += warmth * 0.0625;

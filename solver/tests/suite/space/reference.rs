@@ -647,7 +647,14 @@ impl Plain {
         });
         self.elements[e].bonds = bonds;
         let mass = 0.5 * solid.material.density * solid.volume;
-        let mut damping = stiffest * 16.0 / 3.0 / mass;
+        let mut ways = matrix(|_, _| 0.0);
+        for slot in 0..8 {
+            let apart = sub(now[slot], now[8]);
+            let along = times(apart, 1.0 / norm(apart));
+            ways = plus(&ways, 1.0, &matrix(|i, j| along[i] * along[j]));
+        }
+        let row = |i: usize| (0..3).map(|j| ways[i][j].abs()).sum::<f64>();
+        let mut damping = stiffest * 2.0 * row(0).max(row(1)).max(row(2)) / mass;
         let drag = self.drag(e);
         damping += drag / mass;
         for weights in self.hourglass_weights(&now, body) {
@@ -1006,11 +1013,9 @@ impl Plain {
     fn drag(&self, e: usize) -> f64 {
         let element = &self.elements[e];
         let solid = &self.bodies[element.body];
-        let kappa = if solid.mu > 0.0 {
-            self.method.visc_hourglass_strong
-        } else {
-            self.method.visc_hourglass
-        };
+        let [plain, strong] = [self.method.visc_hourglass, self.method.visc_hourglass_strong];
+        let lost = if solid.mu > 0.0 { element.damage } else { 1.0 };
+        let kappa = if element.dying { 0.0 } else { lost * (plain - strong) + strong };
         let sound = self.particles[element.centre].sound;
         kappa * solid.material.density * sound * solid.volume.powf(2.0 / 3.0)
     }
