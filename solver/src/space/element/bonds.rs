@@ -9,23 +9,23 @@ use crate::space::mesh::Group;
 /// bond's own jump, reach half the inverse of this and of the limiter's.
 const RINGING: f64 = 4.0;
 
-/// Directions of the bonds of a cell: `sum n n^T`, which says how much of their viscosity acts along the
-/// one in which most does. That is 8/3 in a cube, and up to 8 in a rod.
-struct Ways<F> {
-    /// Of `n n^T`: the diagonal, and (0,1), (0,2), (1,2).
+/// Viscosity of the bonds of a cell by direction, `sum nu n n^T`: what damps its centroid. Along the axis
+/// on which most acts that is 8/3 of a bond's in a cube, and up to 8 in a rod.
+struct Damping<F> {
+    /// The diagonal, and (0,1), (0,2), (1,2).
     sum: [F; 6],
 }
 
-impl<F: Lanes> Ways<F> {
+impl<F: Lanes> Damping<F> {
     #[inline(always)]
     fn none() -> Self {
         Self { sum: [F::zero(); 6] }
     }
 
-    /// Adds a bond, with the inverse of its squared length.
+    /// Adds a bond `r` of this viscosity over the square of its length.
     #[inline(always)]
-    fn add(&mut self, r: &V3<F>, inverse: F) {
-        let [x, y, z] = [r[0] * inverse, r[1] * inverse, r[2] * inverse];
+    fn add(&mut self, r: &V3<F>, nu: F) {
+        let [x, y, z] = [r[0] * nu, r[1] * nu, r[2] * nu];
         self.sum[0] += x * r[0];
         self.sum[1] += y * r[1];
         self.sum[2] += z * r[2];
@@ -34,11 +34,10 @@ impl<F: Lanes> Ways<F> {
         self.sum[5] += y * r[2];
     }
 
-    /// Rate at which corners and centroids that move against each other are damped, per viscosity
-    /// coefficient of the bonds: each has half of the mass of a cell of this volume. By rows, which bound
-    /// the largest eigenvalue.
+    /// Rate at which corners and centroids that move against each other are damped, where each has half
+    /// of the mass of the cell. By rows, which bound the largest eigenvalue.
     #[inline(always)]
-    fn damping<const MAPPED: bool>(&self, cells: &Cells<'_, MAPPED>) -> F {
+    fn rate<const MAPPED: bool>(&self, cells: &Cells<'_, MAPPED>) -> F {
         let [xx, yy, zz, xy, xz, yz] = self.sum;
         let [xy, xz, yz] = [xy.max(-xy), xz.max(-xz), yz.max(-yz)];
         let most = (xx + xy + xz).max(yy + xy + yz).max(zz + xz + yz);
@@ -103,7 +102,7 @@ impl Group {
             0.5 * method.heat_coeff * (body.rho_0 * area) * body.eos.c_v() * laws.dt
         });
         let conducts = method.heat_coeff * laws.dt > 0.0;
-        let (mut most, mut ways) = (F::zero(), Ways::none());
+        let mut damping = Damping::none();
         for slot in 0..8 {
             let (r, w) = seen.bond(slot);
             let square = dot(&r, &r).max(F::splat(f64::MIN_POSITIVE));
@@ -119,15 +118,14 @@ impl Group {
             let nu = (pair + speed * (2.0 * method.visc_quad)) * half;
             let bond = nu * approach * inverse;
             self.bonds[slot] = bond.pack();
-            most = most.max(nu);
-            ways.add(&r, inverse);
+            damping.add(&r, nu.keep(approach.gt(F::zero())) * inverse);
             loads.pull(slot, &r, bond);
             if conducts {
                 let difference = seen.theta[slot] - seen.theta[CENTRE];
                 loads.conduct(slot, (pair * difference).keep(near) * conduct);
             }
         }
-        most * ways.damping(cells)
+        damping.rate(cells)
     }
 
     /// Viscosity on what neighbouring jumps along the diagonal do not explain, and the heat flux in
@@ -147,7 +145,7 @@ impl Group {
             .bond_area_as(0, |area| method.heat_coeff * area * body.eos.c_v() * laws.dt / area);
         let conducts = method.heat_coeff * laws.dt > 0.0;
         let rho: [F; 9] = self.gather(read.rho);
-        let (mut most, mut ways) = (zero, Ways::none());
+        let mut damping = Damping::none();
         for slot in 0..8 {
             let (r, w) = seen.bond(slot);
             // The centroid of a dead element may lie on a corner.
@@ -185,14 +183,13 @@ impl Group {
             let bond = nu * jump * inverse;
             self.bonds[slot] = bond.pack();
             // A bond that pulls at nothing damps nothing: material at rest asks for no shorter step.
-            most = most.max(nu.keep(closing | speed.lt(zero)));
-            ways.add(&r, inverse);
+            damping.add(&r, nu.keep(closing | speed.lt(zero)) * inverse);
             loads.pull(slot, &r, bond);
             if conducts {
                 let difference = seen.theta[slot] - seen.theta[CENTRE];
                 loads.conduct(slot, mass * speed.max(zero) * (difference * conduct));
             }
         }
-        most * ways.damping(cells)
+        damping.rate(cells)
     }
 }

@@ -81,7 +81,7 @@ fn gas_thins_without_a_floor() {
 fn the_floor_of_a_solid_is_counted() {
     let body = Body { energy: 1.0, ..block("copper", [4, 4, 4], 0.25) };
     let mut simulation = start(&scene(vec![copper()], vec![body]));
-    march(&mut simulation, 1000);
+    march(&mut simulation, 1500);
     let least = thinnest(&simulation, 8.93);
     println!("t = {}: least density {least:.2}", simulation.time());
     assert!((least - 0.3).abs() < 1e-9, "{least}");

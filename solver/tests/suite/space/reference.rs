@@ -605,7 +605,7 @@ impl Plain {
 
         // Limited viscosity and the heat flux in shocks.
         let area = 0.75 * solid.volume.powf(2.0 / 3.0);
-        let mut stiffest: f64 = 0.0;
+        let mut ways = matrix(|_, _| 0.0);
         let bonds: [f64; 8] = std::array::from_fn(|slot| {
             let [n, x, opposite] = [slot, 8, 7 - slot].map(|k| &self.particles[slots[k]]);
             let apart = sub(now[slot], now[8]);
@@ -635,7 +635,7 @@ impl Plain {
                     method.visc_expansion * sound
                 };
             if jump != 0.0 {
-                stiffest = stiffest.max(nu);
+                ways = plus(&ways, nu, &matrix(|i, j| along[i] * along[j]));
             }
             forces[slot] = add(forces[slot], times(along, nu * jump));
             forces[8] = sub(forces[8], times(along, nu * jump));
@@ -647,14 +647,8 @@ impl Plain {
         });
         self.elements[e].bonds = bonds;
         let mass = 0.5 * solid.material.density * solid.volume;
-        let mut ways = matrix(|_, _| 0.0);
-        for slot in 0..8 {
-            let apart = sub(now[slot], now[8]);
-            let along = times(apart, 1.0 / norm(apart));
-            ways = plus(&ways, 1.0, &matrix(|i, j| along[i] * along[j]));
-        }
         let row = |i: usize| (0..3).map(|j| ways[i][j].abs()).sum::<f64>();
-        let mut damping = stiffest * 2.0 * row(0).max(row(1)).max(row(2)) / mass;
+        let mut damping = 2.0 * row(0).max(row(1)).max(row(2)) / mass;
         let drag = self.drag(e);
         damping += drag / mass;
         for weights in self.hourglass_weights(&now, body) {
