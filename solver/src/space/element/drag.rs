@@ -143,7 +143,8 @@ impl<F: Lanes> Warp<F> {
                 added += back[axis] * back[axis] * weights;
             }
         }
-        let bound = if MAPPED { added * 2.0 + 2.0 } else { added + 1.0 };
+        // Twice, since the two parts are not orthogonal in mapped cells.
+        let bound = (added + 1.0) * 2.0;
         let rate = coefficient * cells.volume_as::<F>(|volume| 2.0 / (cells.body.rho_0 * volume));
         (rate * bound).keep(self.regular)
     }
