@@ -221,7 +221,7 @@ fn the_identity_is_the_regular_lattice() {
             scene.method.visc_volume = 1.0;
             scene.walls.push(mirror(0, 0.0, Side::Above));
             let mut simulation = start(&scene);
-            march(&mut simulation, 90);
+            march(&mut simulation, 60);
             simulation
         };
         let (regular, mapped) = (run(None), run(Some(nothing)));

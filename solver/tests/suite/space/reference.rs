@@ -650,8 +650,13 @@ impl Plain {
         let row = |i: usize| (0..3).map(|j| ways[i][j].abs()).sum::<f64>();
         let mut damping = 2.0 * row(0).max(row(1)).max(row(2)) / mass;
         let drag = self.drag(e);
-        damping += drag / mass;
-        for weights in self.hourglass_weights(&now, body) {
+        let weights = self.hourglass_weights(&now, body);
+        let modes = hourglass_modes();
+        let undone = weights.iter().zip(&modes).map(|(weights, mode)| {
+            weights.iter().zip(mode).map(|(w, m)| (w - m) * (w - m)).sum::<f64>()
+        });
+        damping += 2.0 * drag / mass * (1.0 + 8.0 * undone.sum::<f64>());
+        for weights in weights {
             let rate = amplitude(&weights, |slot| self.particles[slots[slot]].v);
             for slot in 0..8 {
                 forces[slot] = sub(forces[slot], times(rate, drag * weights[slot]));
@@ -1023,14 +1028,9 @@ impl Plain {
             let row = |j: usize| (0..3).map(|k| b[k] * inverse[k][j]).sum::<f64>();
             [row(0), row(1), row(2)]
         });
-        let sign = |slot: usize, axis: usize| if slot >> axis & 1 == 1 { 1.0 } else { -1.0 };
-        let modes = [&[0, 1][..], &[1, 2], &[2, 0], &[0, 1, 2]];
-        modes
+        hourglass_modes()
             .into_iter()
-            .map(|axes| {
-                let mode: [f64; 8] = std::array::from_fn(|slot| {
-                    0.125 * axes.iter().map(|&axis| sign(slot, axis)).product::<f64>()
-                });
+            .map(|mode| {
                 let warp = amplitude(&mode, |slot| now[slot]);
                 std::array::from_fn(|slot| mode[slot] - dot(present[slot], warp))
             })
@@ -1172,6 +1172,16 @@ impl Plain {
             }
         }
     }
+}
+
+/// Weights of the corners in the hourglass modes of a cube.
+fn hourglass_modes() -> [[f64; 8]; 4] {
+    let sign = |slot: usize, axis: usize| if slot >> axis & 1 == 1 { 1.0 } else { -1.0 };
+    [&[0, 1][..], &[1, 2], &[2, 0], &[0, 1, 2]].map(|axes| {
+        std::array::from_fn(|slot| {
+            0.125 * axes.iter().map(|&axis| sign(slot, axis)).product::<f64>()
+        })
+    })
 }
 
 /// Sum of a field of the corners with these weights.
