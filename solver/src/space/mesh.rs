@@ -98,6 +98,8 @@ pub struct Group {
     pub beyond: [u32; 8],
     /// Lanes that have a live element beyond each corner.
     pub has_beyond: [Mask; 8],
+    /// Lanes that had none beyond some corner at the start: the surface of the body.
+    pub bare: Mask,
     /// Coordinates, bit by bit, in which that element is a mirror image.
     pub mirrored: [u8; 8],
     /// Effective plastic strain.
@@ -592,6 +594,7 @@ impl Group {
             stiff: None,
             beyond: [0; 8],
             has_beyond: [0; 8],
+            bare: 0,
             mirrored: [0; 8],
             strain: F8::ZERO,
             flow: F8::splat(solid.first_flow()),
@@ -632,6 +635,7 @@ impl Group {
             }
             self.beyond[corner] = first.unwrap_or(self.centre);
         }
+        self.bare = !self.has_beyond.iter().fold(Mask::MAX, |all, has| all & has);
     }
 
     /// Forgets elements beyond the corners that are no volume any more.

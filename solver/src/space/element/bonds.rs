@@ -1,5 +1,6 @@
 //! Bonds between the corners of a cell and its centroid: viscosity and conduction.
 
+use super::symmetric::Symmetric;
 use super::{CENTRE, Laws, Read, V3, dot, sub};
 use crate::space::cells::Cells;
 use crate::space::lanes::Lanes;
@@ -9,41 +10,9 @@ use crate::space::mesh::Group;
 /// bond's own jump, reach half the inverse of this and of the limiter's.
 const RINGING: f64 = 4.0;
 
-/// Viscosity of the bonds of a cell by direction, `sum nu n n^T`: what damps its centroid. Along the axis
-/// on which most acts that is 8/3 of a bond's in a cube, and up to 8 in a rod.
-struct Damping<F> {
-    /// The diagonal, and (0,1), (0,2), (1,2).
-    sum: [F; 6],
-}
-
-impl<F: Lanes> Damping<F> {
-    #[inline(always)]
-    fn none() -> Self {
-        Self { sum: [F::zero(); 6] }
-    }
-
-    /// Adds a bond `r` of this viscosity over the square of its length.
-    #[inline(always)]
-    fn add(&mut self, r: &V3<F>, nu: F) {
-        let [x, y, z] = [r[0] * nu, r[1] * nu, r[2] * nu];
-        self.sum[0] += x * r[0];
-        self.sum[1] += y * r[1];
-        self.sum[2] += z * r[2];
-        self.sum[3] += x * r[1];
-        self.sum[4] += x * r[2];
-        self.sum[5] += y * r[2];
-    }
-
-    /// Rate at which corners and centroids that move against each other are damped, where each has half
-    /// of the mass of the cell. By rows, which bound the largest eigenvalue.
-    #[inline(always)]
-    fn rate<const MAPPED: bool>(&self, cells: &Cells<'_, MAPPED>) -> F {
-        let [xx, yy, zz, xy, xz, yz] = self.sum;
-        let [xy, xz, yz] = [xy.max(-xy), xz.max(-xz), yz.max(-yz)];
-        let most = (xx + xy + xz).max(yy + xy + yz).max(zz + xz + yz);
-        most * cells.volume_as::<F>(|volume| 4.0 / (cells.body.rho_0 * volume))
-    }
-}
+/// Jump of a bond over the sound speed below which it does not ask for a shorter step. What grows from
+/// there without a vote gets one as soon as it is larger, and material that round-off moves has none.
+const QUIET: f64 = 1e-9;
 
 /// Forces and heat of nine particles.
 pub(super) struct Loads<F> {
@@ -86,23 +55,30 @@ impl<F: Lanes> Seen<'_, F> {
     }
 }
 
+/// What turns `sum nu n n^T` of a cell into rates at which its corners and centroid, moving against each
+/// other, are damped: each has half of its mass.
+#[inline(always)]
+fn per_mass<F: Lanes, const MAPPED: bool>(cells: &Cells<'_, MAPPED>) -> F {
+    cells.volume_as(|volume| 4.0 / (cells.body.rho_0 * volume))
+}
+
 impl Group {
     /// Viscosity (51)-(53) and conduction (56)-(57) as printed, between the centroid and the corners.
-    /// Returns the rate of damping.
+    /// Returns the rates of damping.
     #[inline(always)]
     pub(super) fn pairwise<F: Lanes, const MAPPED: bool>(
         &mut self,
         seen: &Seen<'_, F>,
         (cells, laws): (&Cells<'_, MAPPED>, &Laws),
         loads: &mut Loads<F>,
-    ) -> F {
+    ) -> Symmetric<F> {
         let (body, method) = (cells.body, &laws.method);
         let half: F = cells.bond_area_as(1, |area| 0.5 * method.visc_linear * (body.rho_0 * area));
         let conduct: F = cells.bond_area_as(1, |area| {
             0.5 * method.heat_coeff * (body.rho_0 * area) * body.eos.c_v() * laws.dt
         });
         let conducts = method.heat_coeff * laws.dt > 0.0;
-        let mut damping = Damping::none();
+        let mut damping = Symmetric::zero();
         for slot in 0..8 {
             let (r, w) = seen.bond(slot);
             let square = dot(&r, &r).max(F::splat(f64::MIN_POSITIVE));
@@ -118,25 +94,25 @@ impl Group {
             let nu = (pair + speed * (2.0 * method.visc_quad)) * half;
             let bond = nu * approach * inverse;
             self.bonds[slot] = bond.pack();
-            damping.add(&r, nu.keep(approach.gt(F::zero())) * inverse);
+            damping.add(&r, nu.keep(speed.gt(pair * QUIET)) * inverse);
             loads.pull(slot, &r, bond);
             if conducts {
                 let difference = seen.theta[slot] - seen.theta[CENTRE];
                 loads.conduct(slot, (pair * difference).keep(near) * conduct);
             }
         }
-        damping.rate(cells)
+        damping.times(per_mass(cells))
     }
 
     /// Viscosity on what neighbouring jumps along the diagonal do not explain, and the heat flux in
-    /// shocks (decision 0013). Returns the rate of damping.
+    /// shocks (decision 0013). Returns the rates of damping.
     #[inline(always)]
     pub(super) fn limited<F: Lanes, const MAPPED: bool>(
         &mut self,
         seen: &Seen<'_, F>,
         (cells, laws, read): (&Cells<'_, MAPPED>, &Laws, &Read<'_>),
         loads: &mut Loads<F>,
-    ) -> F {
+    ) -> Symmetric<F> {
         let (body, method) = (cells.body, &laws.method);
         let zero = F::zero();
         let half_area: F = cells.bond_area_as(0, |area| 0.5 * area);
@@ -145,7 +121,7 @@ impl Group {
             .bond_area_as(0, |area| method.heat_coeff * area * body.eos.c_v() * laws.dt / area);
         let conducts = method.heat_coeff * laws.dt > 0.0;
         let rho: [F; 9] = self.gather(read.rho);
-        let mut damping = Damping::none();
+        let mut damping = Symmetric::zero();
         for slot in 0..8 {
             let (r, w) = seen.bond(slot);
             // The centroid of a dead element may lie on a corner.
@@ -182,14 +158,13 @@ impl Group {
             let nu = mass * F::select(closing, shock, sound * method.visc_expansion);
             let bond = nu * jump * inverse;
             self.bonds[slot] = bond.pack();
-            // A bond that pulls at nothing damps nothing: material at rest asks for no shorter step.
-            damping.add(&r, nu.keep(closing | speed.lt(zero)) * inverse);
+            damping.add(&r, nu.keep(speed.abs().gt(sound * QUIET)) * inverse);
             loads.pull(slot, &r, bond);
             if conducts {
                 let difference = seen.theta[slot] - seen.theta[CENTRE];
                 loads.conduct(slot, mass * speed.max(zero) * (difference * conduct));
             }
         }
-        damping.rate(cells)
+        damping.times(per_mass(cells))
     }
 }

@@ -17,6 +17,7 @@ mod particles;
 mod pressure;
 mod pyramid;
 mod resistance;
+mod symmetric;
 
 pub use self::pyramid::{corner_volumes, pyramid_volumes};
 
@@ -24,6 +25,7 @@ use self::bonds::{Loads, Seen};
 use self::drag::Warp;
 use self::kinematics::{Kinematics, gradient};
 use self::pyramid::{Extent, Pyramid, shares, tension, tension_energy};
+use self::symmetric::Symmetric;
 use super::cells::Cells;
 use super::columns::{AllSlices, SumsSlices};
 use super::hourglass::Hourglass;
@@ -169,9 +171,10 @@ impl Group {
         let (mut force, mut rate_squared) = if body.solid.mu > 0.0 {
             freed += self.shear(cells, &motion, (mean, intact, laws.dt));
             let stress = each!(k in 6 => F::of(self.stress[k]));
-            // Twice the rate at which longitudinal waves cross the cell, stretched.
-            let crossing: F = cells.edge_as(|edge| (2.0 * body.solid.sound / edge).powi(2));
-            (motion.forces(&stress, cells, live), motion.stretch_squared() * crossing)
+            // Of planes of nodes, which have half of the mass and move against each other in turns.
+            let planes: F =
+                cells.edge_as(|edge| 32.0 / 3.0 * body.solid.mu / (body.rho_0 * edge * edge));
+            (motion.forces(&stress, cells, live), motion.stretch_squared() * planes * intact)
         } else {
             ([[F::zero(); 3]; 9], F::zero())
         };
@@ -185,12 +188,13 @@ impl Group {
         let mut loads = Loads { force, heat };
 
         let mut push = each!(k in 6 => -tension(opening[k], intact, body.solid.bulk).keep(live));
-        let mut damping = F::zero();
+        let mut stiffness = extent.tension_squared(&opening, intact, cells);
+        let mut damping = Symmetric::zero();
         if laws.volumes {
             self.carry((laws, read), &mut push);
             let v: [V3<F>; 9] = self.gather_vector(read.velocity);
             let sound: [F; 9] = self.gather(read.sound);
-            rate_squared += extent.frequency_squared(&sound);
+            stiffness = stiffness.plus(&extent.pressure_squared(&sound, self.bare));
             let seen = Seen { y: &y, v: &v, sound: &sound, theta: &theta };
             damping = match laws.method.viscosity {
                 Viscosity::Limited => self.limited(&seen, (cells, laws, read), &mut loads),
@@ -200,7 +204,7 @@ impl Group {
             if let Some(coefficient) = drag::coefficient(&laws.method, own, || sound[CENTRE]) {
                 let warp = Warp::new(&u, &y, cells);
                 warp.push(&warp.rates(&v, cells), (cells, coefficient), &mut loads.force);
-                damping += warp.rate(coefficient, cells);
+                damping.widen(warp.rate(coefficient, cells));
             }
             if self.stiff.is_some() {
                 let of = (&seen, cells, &laws.method);
@@ -213,9 +217,8 @@ impl Group {
         self.scatter_vector(&loads.force, sink);
         self.scatter(&loads.heat, sink.nodes.heat, sink.first_node);
         self.scatter_centre(loads.heat[CENTRE], sink.centres.heat, sink.first_centre);
-        // The longest stable step is 2 / (lambda/2 + sqrt(lambda^2/4 + omega^2)).
-        let half = damping * 0.5;
-        let rate = (half + (half * half + rate_squared).sqrt()) * 0.5;
+        stiffness.widen(rate_squared);
+        let rate = symmetric::rate(&stiffness, &damping);
         Demand { rate: rate.keep(live).largest(), dying: self.dying != 0, heat: freed.sum() }
     }
 

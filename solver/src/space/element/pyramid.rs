@@ -1,8 +1,9 @@
 //! Pyramids from the centroid of a cell to its faces: their volumes, and tension.
 
+use super::symmetric::Symmetric;
 use super::{CENTRE, FACES, V3, cross, dot, sub};
 use crate::space::cells::Cells;
-use crate::space::lanes::{F8, Lanes, each};
+use crate::space::lanes::{F8, Lanes, Mask, each};
 
 /// A pyramid from the centroid to a face.
 #[derive(Debug, Clone, Copy)]
@@ -97,33 +98,52 @@ pub(super) struct Extent<F> {
     pub(super) volume: F,
     /// Square of twice the largest face.
     pub(super) largest: F,
-    /// Sum of the squares of twice the six faces.
-    pub(super) faces: F,
+    /// Sum over the six faces `a a^T`, twice their areas.
+    faces: Symmetric<F>,
 }
 
 impl<F: Lanes> Extent<F> {
     #[inline(always)]
     pub(super) fn new(pyramids: &[Pyramid<F>; 6], volume: F) -> Self {
-        let mut extent = Self { volume, largest: F::zero(), faces: F::zero() };
+        let mut extent = Self { volume, largest: F::zero(), faces: Symmetric::zero() };
         for pyramid in pyramids {
-            let square = dot(&pyramid.area, &pyramid.area);
-            extent.largest = extent.largest.max(square);
-            extent.faces += square;
+            extent.largest = extent.largest.max(dot(&pyramid.area, &pyramid.area));
+            extent.faces.add(&pyramid.area, F::splat(1.0));
             extent.volume += pyramid.growth;
         }
         extent
     }
 
-    /// Square of the highest frequency of the cell's pressure: `4 c^2 (A_1^2 + A_2^2 + A_3^2) / V^2`,
-    /// a bound for a lattice of such cells, and met where they are thin (decision 0015).
+    /// Squares of the frequencies of the cell's pressure, `4 c^2 (A_1 A_1^T + A_2 A_2^T + A_3 A_3^T) / V^2`: by
+    /// axes, a bound for a lattice of such cells. Particles on the surface of a body, where cells are `bare`,
+    /// have half of the mass or less, which adds the trace (decision 0020).
     #[inline(always)]
-    pub(super) fn frequency_squared(&self, sound: &[F; 9]) -> F {
+    pub(super) fn pressure_squared(&self, sound: &[F; 9], bare: Mask) -> Symmetric<F> {
         let mut fastest = sound[CENTRE];
         for sound in &sound[..8] {
             fastest = fastest.max(*sound);
         }
         // Of three pairs of faces that come doubled.
-        self.faces * fastest * fastest * 0.5 / (self.volume * self.volume)
+        let scale = fastest * fastest * 0.5 / (self.volume * self.volume);
+        let mut squares = self.faces.times(scale);
+        squares.widen(squares.trace().keep(bare));
+        squares
+    }
+
+    /// Squares of the frequencies of tension, where a pyramid is open: twice what pressure has of the same
+    /// modulus, since it acts on the whole of a cell and not on the half of its centroid.
+    #[inline(always)]
+    pub(super) fn tension_squared<const MAPPED: bool>(
+        &self,
+        opening: &[F; 6],
+        intact: F,
+        cells: &Cells<'_, MAPPED>,
+    ) -> Symmetric<F> {
+        let body = cells.body;
+        let scale: F =
+            cells.volume_as(|volume| body.solid.bulk / (body.rho_0 * volume * volume));
+        let widest = opening.iter().fold(F::zero(), |widest, opening| widest.max(*opening));
+        self.faces.times((scale * intact).keep(widest.gt(F::zero())))
     }
 }
 

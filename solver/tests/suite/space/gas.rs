@@ -3,19 +3,9 @@
 use whipple_solver::method::Viscosity;
 use whipple_solver::space::Simulation;
 use whipple_solver::space::restart::{Section, Values};
-use whipple_solver::space::scene::{Body, EosData, Failure, Material};
+use whipple_solver::space::scene::Body;
 
-use super::scenes::{block, copper, march, scene, start};
-
-fn gas() -> Material {
-    Material {
-        name: "gas".into(),
-        density: 1.0,
-        eos: EosData::IdealGas { adiabatic_index: 1.4, c_v: 1.0 },
-        strength: None,
-        failure: Failure { compression: 0.0, ..Failure::default() },
-    }
-}
+use super::scenes::{block, copper, gas, march, scene, start};
 
 /// Changes a section of numbers.
 fn change(sections: &mut [Section], name: &str, with: impl FnOnce(&mut [f64])) {
@@ -81,7 +71,7 @@ fn gas_thins_without_a_floor() {
 fn the_floor_of_a_solid_is_counted() {
     let body = Body { energy: 1.0, ..block("copper", [4, 4, 4], 0.25) };
     let mut simulation = start(&scene(vec![copper()], vec![body]));
-    march(&mut simulation, 1500);
+    march(&mut simulation, 2000);
     let least = thinnest(&simulation, 8.93);
     println!("t = {}: least density {least:.2}", simulation.time());
     assert!((least - 0.3).abs() < 1e-9, "{least}");

@@ -8,10 +8,10 @@ use whipple_solver::space::mapping::Mapping;
 use whipple_solver::space::output::Particle;
 use whipple_solver::space::restart::Values;
 use whipple_solver::space::scene::{
-    Body, EosData, Failure, Flow, Material, Scene, Shape, Side, Turn,
+    Body, Flow, Scene, Shape, Side, Turn,
 };
 
-use super::scenes::{block, body, march, mirror, scene, start, steel, strong};
+use super::scenes::{block, body, gas, march, mirror, scene, start, steel, strong};
 
 /// A box between two corners, of these cells, mapped.
 fn mapped(material: &str, [low, high]: [[f64; 3]; 2], cells: [usize; 3], by: Mapping) -> Body {
@@ -34,16 +34,6 @@ fn tube(material: &str) -> Body {
     let by = Mapping::Wrap { radius: 1.25 };
     let ends = [[1.0, 0.0, 0.0], [1.5, FRAC_PI_2 * 1.25, 0.18]];
     mapped(material, ends, [TUBE[0], TUBE[1], 2], by)
-}
-
-fn gas() -> Material {
-    Material {
-        name: "gas".into(),
-        density: 1.0,
-        eos: EosData::IdealGas { adiabatic_index: 1.4, c_v: 1.0 },
-        strength: None,
-        failure: Failure { compression: 0.0, ..Failure::default() },
-    }
 }
 
 fn without_viscosity(scene: &mut Scene) {

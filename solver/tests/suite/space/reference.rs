@@ -77,6 +77,13 @@ fn cofactors(a: &M) -> M {
     [cross(a[1], a[2]), cross(a[2], a[0]), cross(a[0], a[1])]
 }
 
+/// A bound of the largest eigenvalue of a symmetric matrix.
+fn largest(a: &M) -> f64 {
+    let mean = trace(a) / 3.0;
+    let own = plus(a, -mean, &ONE);
+    mean + (2.0 / 3.0 * contract(&own, &own)).sqrt()
+}
+
 /// The norm (40).
 fn size(a: &M) -> f64 {
     (0.5 * contract(a, a)).sqrt()
@@ -512,14 +519,14 @@ impl Plain {
         let references: Vec<f64> = faces.iter().map(|&face| pyramid(&rest, face)).collect();
         let opening: Vec<f64> = (0..6).map(|k| volumes[k] / references[k] - 1.0).collect();
         let volume: f64 = volumes.iter().sum();
-        let areas: Vec<f64> = faces
+        let areas: Vec<V> = faces
             .iter()
             .map(|face| {
                 let [a, b, c, d] = face.map(|k| now[k]);
-                0.5 * norm(cross(sub(c, a), sub(d, b)))
+                times(cross(sub(c, a), sub(d, b)), 0.5)
             })
             .collect();
-        let widest_face = areas.iter().copied().fold(0.0, f64::max);
+        let widest_face = areas.iter().map(|&area| norm(area)).fold(0.0, f64::max);
         let warmth: Vec<f64> = slots.iter().map(|&i| self.particles[i].theta).collect();
         let theta = 0.5 * warmth[8] + warmth[..8].iter().sum::<f64>() / 16.0;
         let stretch = q * trace(&c) / 3.0 * q.max(1.0);
@@ -578,7 +585,7 @@ impl Plain {
                 let pull: V = std::array::from_fn(|d| dot(element.piola[d], gradients[slot]));
                 forces[slot] = sub(forces[slot], times(pull, solid.volume));
             }
-            squared = stretch * (2.0 * solid.fast / solid.edge).powi(2);
+            squared = stretch * 32.0 / 3.0 * intact * solid.mu / solid.material.density / solid.edge.powi(2);
         }
         let mut heat: [f64; 9] = [freed / 16.0; 9];
         heat[8] = 0.5 * freed;
@@ -600,12 +607,20 @@ impl Plain {
             }
         }
         let fastest = slots.iter().map(|&i| self.particles[i].sound).fold(0.0, f64::max);
-        let squares: f64 = areas.iter().map(|area| area * area).sum();
-        squared += 2.0 * squares * (fastest / volume).powi(2);
+        let outer = |v: V| matrix(|i, j| v[i] * v[j]);
+        let sum = areas.iter().fold(scaled(&ONE, 0.0), |sum, &area| plus(&sum, 1.0, &outer(area)));
+        let mut squares = scaled(&sum, 2.0 * (fastest / volume).powi(2));
+        let bare = self.elements[e].beyond.iter().any(Option::is_none);
+        squared += if bare { trace(&squares) } else { 0.0 };
+        squares = plus(&squares, squared, &ONE);
+        if opening.iter().any(|&open| open > 0.0) {
+            let stiff = intact * solid.bulk / solid.material.density / solid.volume.powi(2);
+            squares = plus(&squares, 4.0 * stiff, &sum);
+        }
 
         // Limited viscosity and the heat flux in shocks.
         let area = 0.75 * solid.volume.powf(2.0 / 3.0);
-        let mut ways = matrix(|_, _| 0.0);
+        let mut ways = scaled(&ONE, 0.0);
         let bonds: [f64; 8] = std::array::from_fn(|slot| {
             let [n, x, opposite] = [slot, 8, 7 - slot].map(|k| &self.particles[slots[k]]);
             let apart = sub(now[slot], now[8]);
@@ -634,8 +649,8 @@ impl Plain {
                 } else {
                     method.visc_expansion * sound
                 };
-            if jump != 0.0 {
-                ways = plus(&ways, nu, &matrix(|i, j| along[i] * along[j]));
+            if jump.abs() > 1e-9 * sound {
+                ways = plus(&ways, nu, &outer(along));
             }
             forces[slot] = add(forces[slot], times(along, nu * jump));
             forces[8] = sub(forces[8], times(along, nu * jump));
@@ -647,23 +662,25 @@ impl Plain {
         });
         self.elements[e].bonds = bonds;
         let mass = 0.5 * solid.material.density * solid.volume;
-        let row = |i: usize| (0..3).map(|j| ways[i][j].abs()).sum::<f64>();
-        let mut damping = 2.0 * row(0).max(row(1)).max(row(2)) / mass;
+        let mut damping = scaled(&ways, 2.0 / mass);
         let drag = self.drag(e);
         let weights = self.hourglass_weights(&now, body);
         let modes = hourglass_modes();
         let undone = weights.iter().zip(&modes).map(|(weights, mode)| {
             weights.iter().zip(mode).map(|(w, m)| (w - m) * (w - m)).sum::<f64>()
         });
-        damping += 2.0 * drag / mass * (1.0 + 8.0 * undone.sum::<f64>());
+        let held = 2.0 * drag / mass * (1.0 + 8.0 * undone.sum::<f64>());
+        damping = plus(&damping, held, &ONE);
         for weights in weights {
             let rate = amplitude(&weights, |slot| self.particles[slots[slot]].v);
             for slot in 0..8 {
                 forces[slot] = sub(forces[slot], times(rate, drag * weights[slot]));
             }
         }
-        self.rate =
-            self.rate.max(0.25 * damping + 0.5 * (0.25 * damping * damping + squared).sqrt());
+        let half = 0.5 * largest(&damping);
+        let rate = 0.5 * (half + (half * half + largest(&squares)).sqrt());
+        let slack = plus(&scaled(&squares, 0.25 / (rate * rate)), 0.5 / rate, &damping);
+        self.rate = self.rate.max(rate * largest(&slack).sqrt());
         for slot in 0..9 {
             let p = &mut self.particles[slots[slot]];
             p.force = add(p.force, forces[slot]);

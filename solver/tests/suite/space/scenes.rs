@@ -54,6 +54,17 @@ pub fn copper() -> Material {
     }
 }
 
+/// A gas whose elements live.
+pub fn gas() -> Material {
+    Material {
+        name: "gas".into(),
+        density: 1.0,
+        eos: EosData::IdealGas { adiabatic_index: 1.4, c_v: 1.0 },
+        strength: None,
+        failure: Failure { compression: 0.0, ..Failure::default() },
+    }
+}
+
 /// The same with strength.
 pub fn strong(mut material: Material, shear_modulus: f64, flow: Option<Flow>) -> Material {
     material.strength = Some(Strength { shear_modulus, flow });
