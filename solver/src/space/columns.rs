@@ -161,8 +161,10 @@ columns! {
         fz,
         /// Change of the volume of the live elements' shares.
         volume,
-        /// Its rate.
+        /// Its rate over the mean velocity of the step.
         volume_rate,
+        /// Its rate over the velocity before the kick.
+        volume_rate_before,
         /// Heat, but for the work of the elements' volumes.
         heat,
         /// Density rate by contacts.

@@ -214,8 +214,11 @@ impl<F: Lanes> Eight<'_, F> {
         if alone != 0 {
             rho_rate = F::select(self.free(derived, alone), self.free_rate(derived), rho_rate);
         }
-        let work = F::load(sums.heat, at) - F::load(derived.grip, at) * volume_rate * kick;
-        let gain = work / self.mass;
+        // The drift is over the velocity after the kick, and so is what it does to volumes: with the
+        // mean velocity, pressures would lag behind the positions and feed the fastest waves.
+        let ahead = volume_rate - F::load(sums.volume_rate_before, at);
+        let grip = F::load(derived.grip, at);
+        let gain = (F::load(sums.heat, at) - grip * volume_rate * kick) / self.mass;
         let rho = F::load(state.rho, at) + rho_rate * kick;
         let floored = rho.lt(least).count_ones();
         let rho = rho.max(least);
@@ -223,7 +226,7 @@ impl<F: Lanes> Eight<'_, F> {
         let u_rate = if kick > 0.0 { gain * (1.0 / kick) } else { F::zero() };
         rho.store(state.rho, at);
         u.store(state.u, at);
-        let volume = F::load(sums.volume, at) + volume_rate * dt;
+        let volume = F::load(sums.volume, at) + (volume_rate + ahead) * dt;
         let mut finite = u + rho;
         for (x, v, mean) in [
             (&mut *state.dx, &mut *state.vx, &mut *sums.fx),
@@ -239,15 +242,21 @@ impl<F: Lanes> Eight<'_, F> {
             F::zero().store(mean, at);
             finite += moved;
         }
-        for column in [&mut *sums.volume, &mut *sums.volume_rate] {
+        for column in
+            [&mut *sums.volume, &mut *sums.volume_rate, &mut *sums.volume_rate_before]
+        {
             F::zero().store(column, at);
         }
+        let rho_rate = rho_rate - F::load(derived.dilate, at) * ahead;
+        let u_rate = u_rate - grip * ahead / self.mass;
         let left = if keep_rates { [u_rate, rho_rate] } else { [F::zero(); 2] };
         left[0].store(sums.heat, at);
         left[1].store(sums.rho_rate, at);
         // Zero times whatever is no number is none either.
         let sane = (finite * 0.0).sum() == 0.0;
-        let rho = (rho + rho_rate * (0.5 * dt)).max(least);
+        // Volumes, not densities, change evenly in a step: what expands does not end at zero.
+        let change = (rho_rate * (0.5 * dt) / rho).min(F::splat(0.5));
+        let rho = (rho / (F::splat(1.0) - change)).max(least);
         (Now { rho, u: u + u_rate * (0.5 * dt), rho_rate }, volume, (sane, floored))
     }
 

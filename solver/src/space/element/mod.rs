@@ -193,6 +193,14 @@ impl Group {
         if laws.volumes {
             self.carry((laws, read), &mut push);
             let v: [V3<F>; 9] = self.gather_vector(read.velocity);
+            let rates: [F; 6] = each!(k in 6 => pyramids[k].rate(&v, FACES[k]).keep(live));
+            let share = shares(&rates, laws.method.balance);
+            self.scatter(&share, sink.nodes.volume_rate_before, sink.first_node);
+            self.scatter_centre(
+                share[CENTRE],
+                sink.centres.volume_rate_before,
+                sink.first_centre,
+            );
             let sound: [F; 9] = self.gather(read.sound);
             stiffness = stiffness.plus(&extent.pressure_squared(&sound, self.bare));
             let seen = Seen { y: &y, v: &v, sound: &sound, theta: &theta };

@@ -69,7 +69,7 @@ fn gas_thins_without_a_floor() {
 /// What the least density of a solid holds is counted.
 #[test]
 fn the_floor_of_a_solid_is_counted() {
-    let body = Body { energy: 1.0, ..block("copper", [4, 4, 4], 0.25) };
+    let body = Body { energy: 4.0, ..block("copper", [4, 4, 4], 0.25) };
     let mut simulation = start(&scene(vec![copper()], vec![body]));
     march(&mut simulation, 2000);
     let least = thinnest(&simulation, 8.93);

@@ -123,6 +123,7 @@ pub struct Particle {
     heat: f64,
     growth: f64,
     growth_rate: f64,
+    growth_rate_before: f64,
     contact_rate: f64,
     touched: bool,
     exposed: bool,
@@ -602,8 +603,11 @@ impl Plain {
                 growth[slot] += weights[slot] * (volumes[k] - references[k]);
             }
             let slopes = pyramid_gradient(&now, face);
+            let rate: f64 =
+                (0..9).map(|slot| dot(slopes[slot], self.particles[slots[slot]].v)).sum();
             for slot in 0..9 {
                 forces[slot] = add(forces[slot], times(slopes[slot], push));
+                self.particles[slots[slot]].growth_rate_before += weights[slot] * rate;
             }
         }
         let fastest = slots.iter().map(|&i| self.particles[i].sound).fold(0.0, f64::max);
@@ -1139,12 +1143,18 @@ impl Plain {
                 p.rho_rate = rate;
                 p.rho = (p.rho + rate * kick).max(0.3 * rho_0);
             }
-            let growth = p.growth + p.growth_rate * dt;
+            // Over the velocity of the drift.
+            let ahead = p.growth_rate - p.growth_rate_before;
+            p.rho_rate -= p.dilate * ahead;
+            p.u_rate -= pressure_work * ahead / p.mass;
+            let growth = p.growth + (p.growth_rate + ahead) * dt;
             p.displacement = add(p.displacement, times(p.v, dt));
-            (p.force, p.heat, p.growth, p.growth_rate) = ([0.0; 3], 0.0, 0.0, 0.0);
+            (p.force, p.heat) = ([0.0; 3], 0.0);
+            (p.growth, p.growth_rate, p.growth_rate_before) = (0.0, 0.0, 0.0);
             p.contact_rate = 0.0;
 
-            p.rho_now = (p.rho + 0.5 * dt * p.rho_rate).max(0.3 * rho_0);
+            let change = (0.5 * dt * p.rho_rate / p.rho).min(0.5);
+            p.rho_now = (p.rho / (1.0 - change)).max(0.3 * rho_0);
             (p.pressure, p.sound, p.theta) = eos(solid, p.rho_now, p.u + 0.5 * dt * p.u_rate);
             let reference = p.mass / rho_0;
             p.dilate = if p.live > 0 {
