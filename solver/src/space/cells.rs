@@ -15,7 +15,7 @@ use crate::error::SceneError;
 const LONGEST_EDGE: f64 = 3.0;
 
 /// Smallest share of a corner in the volume of its cell, over a sixteenth: lighter particles would ask for
-/// a shorter time step than their cells do with the factor 0.8 of `cfl`, which leaves its square.
+/// a much shorter time step than the others.
 const LIGHTEST: f64 = 0.64;
 
 /// Columns of a mapped cell: components of the corners from the centroid,
@@ -312,6 +312,18 @@ impl<'a, const MAPPED: bool> Cells<'a, MAPPED> {
         } else {
             F::splat(self.body.pyramids[k] / self.body.cell_volume)
         }
+    }
+
+    /// The smallest share of a corner in the volume of its cell, over a sixteenth, where cells are unequal.
+    #[inline(always)]
+    #[must_use]
+    pub fn lightest<F: Lanes>(&self) -> Option<F> {
+        if !MAPPED {
+            return None;
+        }
+        let shares = (0..8).map(|slot| self.load::<F>(SHARES + slot));
+        let least = shares.fold(F::splat(f64::INFINITY), |least, share| least.min(share));
+        Some((least * 16.0 / self.volume()).min(F::splat(1.0)))
     }
 
     /// Volume of a cell.

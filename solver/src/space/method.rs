@@ -117,7 +117,7 @@ impl Preset {
             kernel_support: 1.7,
             release: Release::Crossings(5.0),
             spall: true,
-            cfl: 0.8,
+            cfl: 0.9,
         };
         match self {
             Self::Paper => Method {

@@ -23,7 +23,7 @@ use crate::method::Density;
 const GROWTH: f64 = 1.05;
 
 /// Longest step over the time in which sound crosses a particle, or the cell of a body at rest.
-pub(super) const CROSSING: f64 = 0.375;
+pub(super) const CROSSING: f64 = 1.0 / 3.0;
 
 /// Smallest time step over the first one.
 const COLLAPSED: f64 = 1e-6;

@@ -242,9 +242,7 @@ impl<F: Lanes> Eight<'_, F> {
             F::zero().store(mean, at);
             finite += moved;
         }
-        for column in
-            [&mut *sums.volume, &mut *sums.volume_rate, &mut *sums.volume_rate_before]
-        {
+        for column in [&mut *sums.volume, &mut *sums.volume_rate, &mut *sums.volume_rate_before] {
             F::zero().store(column, at);
         }
         let rho_rate = rho_rate - F::load(derived.dilate, at) * ahead;

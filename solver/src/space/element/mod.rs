@@ -196,11 +196,7 @@ impl Group {
             let rates: [F; 6] = each!(k in 6 => pyramids[k].rate(&v, FACES[k]).keep(live));
             let share = shares(&rates, laws.method.balance);
             self.scatter(&share, sink.nodes.volume_rate_before, sink.first_node);
-            self.scatter_centre(
-                share[CENTRE],
-                sink.centres.volume_rate_before,
-                sink.first_centre,
-            );
+            self.scatter_centre(share[CENTRE], sink.centres.volume_rate_before, sink.first_centre);
             let sound: [F; 9] = self.gather(read.sound);
             stiffness = stiffness.plus(&extent.pressure_squared(&sound, self.bare));
             let seen = Seen { y: &y, v: &v, sound: &sound, theta: &theta };
@@ -226,6 +222,10 @@ impl Group {
         self.scatter(&loads.heat, sink.nodes.heat, sink.first_node);
         self.scatter_centre(loads.heat[CENTRE], sink.centres.heat, sink.first_centre);
         stiffness.widen(rate_squared);
+        if let Some(lightest) = cells.lightest::<F>() {
+            let heavier = F::splat(1.0) / lightest;
+            (stiffness, damping) = (stiffness.times(heavier), damping.times(heavier));
+        }
         let rate = symmetric::rate(&stiffness, &damping);
         Demand { rate: rate.keep(live).largest(), dying: self.dying != 0, heat: freed.sum() }
     }

@@ -140,8 +140,7 @@ impl<F: Lanes> Extent<F> {
         cells: &Cells<'_, MAPPED>,
     ) -> Symmetric<F> {
         let body = cells.body;
-        let scale: F =
-            cells.volume_as(|volume| body.solid.bulk / (body.rho_0 * volume * volume));
+        let scale: F = cells.volume_as(|volume| body.solid.bulk / (body.rho_0 * volume * volume));
         let widest = opening.iter().fold(F::zero(), |widest, opening| widest.max(*opening));
         self.faces.times((scale * intact).keep(widest.gt(F::zero())))
     }

@@ -7,9 +7,7 @@ use whipple_solver::space::Simulation;
 use whipple_solver::space::mapping::Mapping;
 use whipple_solver::space::output::Particle;
 use whipple_solver::space::restart::Values;
-use whipple_solver::space::scene::{
-    Body, Flow, Scene, Shape, Side, Turn,
-};
+use whipple_solver::space::scene::{Body, Flow, Scene, Shape, Side, Turn};
 
 use super::scenes::{block, body, gas, march, mirror, scene, start, steel, strong};
 

@@ -586,7 +586,9 @@ impl Plain {
                 let pull: V = std::array::from_fn(|d| dot(element.piola[d], gradients[slot]));
                 forces[slot] = sub(forces[slot], times(pull, solid.volume));
             }
-            squared = stretch * 32.0 / 3.0 * intact * solid.mu / solid.material.density / solid.edge.powi(2);
+            squared = stretch * 32.0 / 3.0 * intact * solid.mu
+                / solid.material.density
+                / solid.edge.powi(2);
         }
         let mut heat: [f64; 9] = [freed / 16.0; 9];
         heat[8] = 0.5 * freed;
@@ -1023,7 +1025,7 @@ impl Plain {
     fn elect(&mut self) -> f64 {
         let mut dt = self.allowed[0];
         for solid in &self.bodies {
-            dt = dt.min(0.375 * solid.edge / solid.fast);
+            dt = dt.min(solid.edge / (3.0 * solid.fast));
         }
         dt = (self.method.cfl * dt.min(1.0 / self.rate)).min(self.allowed[1]);
         if self.dt > 0.0 { dt.min(1.05 * self.dt) } else { dt }
@@ -1165,7 +1167,7 @@ impl Plain {
             };
             if p.touched || p.live < p.round {
                 let crossing = (rho_0 / p.rho_now).min(1.0) / p.sound;
-                self.allowed[0] = self.allowed[0].min(0.375 * solid.edge * crossing);
+                self.allowed[0] = self.allowed[0].min(solid.edge * crossing / 3.0);
             }
             if p.pressure > 0.0 && p.rho_rate != 0.0 {
                 self.allowed[1] = self.allowed[1].min(0.08 * p.rho_now / p.rho_rate.abs());

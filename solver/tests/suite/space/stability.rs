@@ -49,9 +49,13 @@ fn noise_dies_out_in_long_and_flat_cells() {
     let metal = strong(steel(), 0.801, None);
     let mut grown = vec![];
     for edges in [[0.1; 3], [0.29, 0.1, 0.1], [0.1, 0.29, 0.29], [0.1, 0.17, 0.29]] {
-        for (material, free) in
-            [(&metal, true), (&metal, false), (&copper(), true), (&copper(), false), (&gas(), false)]
-        {
+        for (material, free) in [
+            (&metal, true),
+            (&metal, false),
+            (&copper(), true),
+            (&copper(), false),
+            (&gas(), false),
+        ] {
             // Stiffness decides with the first two, damping with the last.
             for visc_linear in [0.0, 0.1, 0.7, 5.0] {
                 let mut scene = scene(vec![material.clone()], vec![noisy(&material.name, edges)]);
