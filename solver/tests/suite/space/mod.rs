@@ -15,4 +15,5 @@ mod plasticity;
 mod reference;
 mod refusals;
 mod scenes;
+mod surfaces;
 mod viscosity;
