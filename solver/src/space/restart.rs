@@ -4,8 +4,8 @@
 //! or within the step. Sums are zero between steps. Names and lengths of the sections follow from the
 //! scene alone.
 //!
-//! A contact is found whenever it is in reach, in an order that only the members decide, so forces do
-//! not depend on when the list of pairs was made. The count of pairs does: the places of the members
+//! A contact is found whenever it is in reach, in an order that only the members decide, and so is a surface:
+//! forces do not depend on when the list of pairs was made. The count of pairs does: the places of the members
 //! at that time are kept too, and the list is made again from them.
 
 use thiserror::Error;

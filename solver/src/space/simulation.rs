@@ -104,11 +104,17 @@ impl Simulation {
         }
         let kernel = (scene.method.density == Density::Kernel)
             .then(|| Kernel::new(&mesh, scene.method.kernel_support));
+        let surfaces = Surfaces::new(&mesh, volumes);
+        if let Some((body, [far, most])) = surfaces.too_wide(&mesh) {
+            let given = format!("corners {far:.3e} from the middle of a face");
+            let wanted = format!("another body must find one within {most:.3e}: cells more alike");
+            return Err(SceneError::new(format!("bodies.{body}.mapping"), given, &wanted));
+        }
         let mut simulation = Self {
             derived: Derived::zeros(mesh.len),
             sums: Sums::zeros(mesh.len),
             contacts: Contacts::new(&mesh, volumes, kernel),
-            surfaces: Surfaces::new(&mesh, volumes),
+            surfaces,
             walls: Wall::all(scene, &mesh),
             active: vec![true; mesh.pieces.len()],
             touched: vec![false; mesh.len],
@@ -280,7 +286,7 @@ impl Simulation {
         let [rate, heat] = self.surfaces.push(
             (&self.mesh, &self.contacts),
             columns,
-            &self.method,
+            (&self.method, self.dt),
             (&mut self.sums, &mut self.touched, &mut self.active),
         );
         self.demand.rate = self.demand.rate.max(rate);

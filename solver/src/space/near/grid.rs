@@ -17,7 +17,7 @@ const MOST: i64 = (1 << 21) - 8;
 /// fall into another row.
 pub(super) const MARGIN: u64 = 1;
 
-/// By how much the reach is enlarged before it is compared in `f32`.
+/// By how much the reach is enlarged, once for what is listed and once more before it is compared in `f32`.
 pub(super) const SLACK: f64 = 1e-5;
 
 /// A member in the order of the cells.
@@ -87,13 +87,6 @@ impl Grid {
         })
     }
 
-    /// Whether two members were within reach of each other when they were sorted.
-    #[inline(always)]
-    pub(super) fn in_reach(&self, one: &Member, other: &Member) -> bool {
-        let square: f64 = (0..3).map(|k| ((one.at[k] - other.at[k]) * self.scale).powi(2)).sum();
-        square < f64::from(one.limit.max(other.limit))
-    }
-
     /// Takes all members out.
     pub(super) fn clear(&mut self) {
         self.all.clear();
@@ -112,7 +105,8 @@ impl Grid {
         for item in &self.sorter.items {
             let i = item.id as usize;
             let own = (reach.factor * f64::from(points.length[i]) + reach.skin) * self.scale;
-            // The last term covers the rounding of positions, relative to the longest reach.
+            // The last term covers the rounding of positions in `f32`, relative to the longest reach: what
+            // is listed is decided in `f64`.
             let limit = (own * (1.0 + SLACK) + SLACK).powi(2) as f32;
             let at = [points.x[i], points.y[i], points.z[i]];
             self.all.push(Member { at, limit, id: item.id });

@@ -55,12 +55,22 @@ pub struct Points<'a> {
 }
 
 /// How far to look for pairs.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub struct Reach {
     /// Distance of contact, in contact lengths.
     pub factor: f64,
     /// By how much the list reaches further than contact.
     pub skin: f64,
+}
+
+impl Reach {
+    /// Whether members with these contact lengths are to be listed, at these places. However a pair is come
+    /// upon, this alone decides: a list does not depend on how it came to be.
+    fn holds(&self, [a, b]: [[f64; 3]; 2], [p, q]: [f32; 2]) -> bool {
+        // The slack is for the motion that is measured from here on.
+        let far = (self.factor * f64::from(p.max(q)) + self.skin) * (1.0 + SLACK);
+        (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>() < far * far
+    }
 }
 
 /// What the search has done so far.
@@ -89,6 +99,8 @@ pub struct PairList {
     /// Pairs to be added.
     batch: Vec<[u32; 2]>,
     counters: Counters,
+    /// Reach that the list was made for.
+    reach: Reach,
     /// Members that the list was made for.
     members: Option<usize>,
 }
@@ -115,6 +127,11 @@ impl Points<'_> {
         self.flags[i as usize] & EXPOSED != 0
     }
 
+    #[inline(always)]
+    fn at(&self, i: u32) -> [f64; 3] {
+        [self.x, self.y, self.z].map(|x| x[i as usize])
+    }
+
     fn has_columns_of(&self, n: usize) -> bool {
         let lattice = self.lattice.is_none_or(|lattice| lattice.len() == n);
         let flags = self.length.len() == n && self.flags.len() == n && self.body.len() == n;
@@ -131,7 +148,7 @@ impl PairList {
 
     /// Makes the list anew. `keep(i, j)`, with `i < j`, is asked about each pair within reach.
     ///
-    /// Pairs are found with a reach enlarged by about 2e-5 of the longest, because of rounding.
+    /// Pairs are listed with a reach enlarged by 1e-5 of it, because of rounding.
     ///
     /// # Panics
     /// If columns differ in length.
@@ -147,16 +164,22 @@ impl PairList {
         self.counters.rebuilds += 1;
         let longest = points.length.iter().fold(0.0_f32, |a, &b| if b > a { b } else { a });
         let contact = reach.factor * f64::from(longest);
-        let skin = reach.skin.max(0.0);
+        let reach = Reach { skin: reach.skin.max(0.0), ..reach };
+        self.reach = reach;
+        let skin = reach.skin;
         let far = contact + skin;
         if far > 0.0 {
-            self.grid.build(points, far, Reach { skin, ..reach });
+            self.grid.build(points, far, reach);
         } else {
             self.grid.clear();
         }
         let chunks = self.grid.keys.len().div_ceil(CHUNK);
         self.motion.limit(Free { skin, contact: contact + SLACK * far });
-        self.search(chunks, &keep);
+        let holds = |i: u32, j: u32| {
+            let lengths = [i, j].map(|i| points.length[i as usize]);
+            reach.holds([i, j].map(|i| points.at(i)), lengths)
+        };
+        self.search(chunks, &|i, j| keep(i, j) && holds(i, j));
         let found = self.slots[..chunks].iter();
         self.joiner.join(found.map(|slot| &slot.pairs[..]), n, &mut self.pairs);
         self.counters.tests += self.slots[..chunks].iter().map(|slot| slot.tests).sum::<u64>();
@@ -202,15 +225,23 @@ impl PairList {
 
     /// Adds the pairs of members that have become able to touch, at the places and within the reach
     /// for which the list was made: what a list made anew at those places would have besides.
-    /// `keep(i, j)`, with `i < j`, is asked about each; one of the two is `fresh`.
-    pub fn extend(&mut self, fresh: impl Fn(u32) -> bool, keep: impl Fn(u32, u32) -> bool) {
+    /// `keep(i, j)`, with `i < j`, is asked about each; one of the two is `fresh`. Contact lengths are
+    /// those that the list was made for.
+    pub fn extend(
+        &mut self,
+        length: &[f32],
+        fresh: impl Fn(u32) -> bool,
+        keep: impl Fn(u32, u32) -> bool,
+    ) {
         let mut batch = std::mem::take(&mut self.batch);
         batch.clear();
         for cell in 0..self.grid.keys.len() {
             for member in self.grid.members(cell as u32).iter().filter(|one| fresh(one.id)) {
                 for other in self.grid.round(cell).filter(|other| other.id != member.id) {
                     let pair = [member.id.min(other.id), member.id.max(other.id)];
-                    if self.grid.in_reach(member, other) && keep(pair[0], pair[1]) {
+                    let lengths = pair.map(|i| length[i as usize]);
+                    let holds = self.reach.holds([member.at, other.at], lengths);
+                    if holds && keep(pair[0], pair[1]) {
                         put(&mut batch, pair);
                     }
                 }

@@ -158,6 +158,41 @@ impl Nearest {
         }
         Some(face.nearest(start))
     }
+
+    /// The corner of its face next to it, if it lies on a side that does not meet `node`.
+    pub(super) fn beyond(&self, face: &Corners, node: u32) -> Option<u32> {
+        let shares = bilinear(self.at);
+        let corners = || face.iter().zip(&shares);
+        corners().find(|&(&corner, &share)| corner == node && share == 0.0)?;
+        corners().max_by(|a, b| a.1.total_cmp(b.1)).map(|(&corner, _)| corner)
+    }
+}
+
+/// The nearest point of some faces, the first of equals. It is sought first on a face where it is likely.
+pub(super) fn nearest_face(
+    contacts: &Contacts,
+    x: [f64; 3],
+    faces: impl Iterator<Item = Corners> + Clone,
+    likely: Option<Corners>,
+) -> Option<(Corners, Nearest)> {
+    let faces = faces.enumerate();
+    let mut best = faces.clone().find(|&(_, face)| Some(face) == likely).map(|(place, face)| {
+        let near = Nearest::of(x, places_of(contacts, &face));
+        (near, place, face)
+    });
+    for (place, face) in faces {
+        let (limit, known) = best.map_or((f64::INFINITY, None), |(n, at, _)| (n.square, Some(at)));
+        if known == Some(place) {
+            continue;
+        }
+        let near = Nearest::within(x, places_of(contacts, &face), limit);
+        let earlier = known.is_some_and(|known| place < known);
+        best = near
+            .filter(|near| near.square < limit || near.square == limit && earlier)
+            .map(|near| (near, place, face))
+            .or(best);
+    }
+    best.filter(|(near, ..)| near.square > 0.0).map(|(near, _, face)| (face, near))
 }
 
 /// A bilinear face, and a point seen from its first corner.

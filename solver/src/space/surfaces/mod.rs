@@ -12,9 +12,10 @@ mod shell;
 mod spring;
 
 pub(super) use self::memory::Memory;
+pub(super) use self::shell::REACH;
 
-use self::face::{Corners, Nearest, POINTS, Part, dot, mean_of, places_of};
-use self::shell::{Lookout, Shell};
+use self::face::{POINTS, Part, dot, each_face, mean_of, minus, places_of};
+use self::shell::Shell;
 use self::spring::{DEEPEST, Law, Past, Spring, Start};
 use super::columns::{Derived, State, Sums};
 use super::contacts::{Contacts, steepness};
@@ -24,10 +25,6 @@ use super::near::{put, roomy};
 
 /// Distance at which a surface is felt, in edges of cells.
 const STAND: f64 = 0.5;
-
-/// Distance in contact lengths within which the corner of the nearest face is sought: of a face that
-/// is stretched to 1.5 times its edge.
-pub(in crate::space) const REACH: f64 = 1.4;
 
 /// Smallest part of it: a particle that a surface appears closer to feels it when it has left it so far.
 const CLOSE: f64 = 0.25;
@@ -41,6 +38,10 @@ const APPROACH: f64 = 0.4;
 /// Rate of damping over that which stops the approach in one step, before the safety of the step: two
 /// springs act on a pair of nodes face to face.
 const DAMPING: f64 = 2.0;
+
+/// Steps before it meets the surface from which on a point asks for steps as short as its viscosity then
+/// will, this one included: the kick in which they meet goes over half of the step before too.
+const AHEAD: f64 = 2.0;
 
 /// Whether a surface keeps two particles apart: of two solid bodies, and one of them held.
 #[inline(always)]
@@ -88,13 +89,31 @@ impl Surfaces {
         first
     }
 
+    /// The first body beside others with a mapped cell so wide that a point over the middle of its face has no
+    /// corner in reach where it is to feel it: its number, how far they are, and the most.
+    #[must_use]
+    pub fn too_wide(&self, mesh: &Mesh) -> Option<(usize, [f64; 2])> {
+        let solid = |k: &usize| mesh.bodies[*k].solid.sound > 0.0;
+        let solids = || (0..mesh.bodies.len()).filter(solid).filter(|_| self.some);
+        solids().filter(|&k| mesh.bodies[k].lattice.is_mapped()).find_map(|k| {
+            let half = 0.5 * widest_diagonal(mesh, k);
+            solids().filter(|&other| other != k).find_map(|other| {
+                let pair = [k as u16, other as u16];
+                let lengths = pair.map(|body| mesh.bodies[usize::from(body)].length);
+                let (far, most) =
+                    (half.hypot(full_stand(mesh, pair)), REACH * lengths[0].max(lengths[1]));
+                (far > most).then_some((k, [far, most]))
+            })
+        })
+    }
+
     /// Forces on particles and surfaces, and the marks of touched particles. Returns the inverse of
     /// the longest stable step, and the heat of springs that let go.
     pub fn push(
         &mut self,
         (mesh, contacts): (&Mesh, &Contacts),
         (state, derived): (&State, &Derived),
-        method: &Method,
+        (method, dt): (&Method, f64),
         (sums, touched, active): (&mut Sums, &mut [bool], &mut [bool]),
     ) -> [f64; 2] {
         if !self.some {
@@ -118,7 +137,8 @@ impl Surfaces {
             rate = rate.max(approach / (APPROACH * distance.max(DEEPEST * stand)));
             let z = distance / stand;
             let body = &mesh.bodies[spring.bodies[0] as usize];
-            let soon = stand + approach * body.edge() / body.solid.sound;
+            let crossing = body.edge() / body.solid.sound;
+            let soon = stand + approach * crossing;
             if z >= 1.0 && distance >= soon {
                 continue;
             }
@@ -128,18 +148,19 @@ impl Surfaces {
                 let stiffness = whole * Law::stiffness(z.min(1.0));
                 rate = rate.max((stiffness * inertia).sqrt() / stand);
             }
+            let ahead = if dt > 0.0 { AHEAD * dt } else { crossing };
+            let resists = approach > 0.0 && (z < 1.0 || distance < stand + approach * ahead);
+            let coefficient = if resists {
+                viscosity((derived, contacts), (mesh, method), (spring, start), approach)
+            } else {
+                0.0
+            };
+            rate = rate.max(DAMPING * coefficient * inertia);
             if z >= 1.0 {
                 continue;
             }
             spring.force = whole * Law::force(z) / stand;
-            if approach > 0.0 {
-                let (impedance, sound) = resistance((derived, contacts), spring, start);
-                let bodies = spring.bodies.map(|b| &mesh.bodies[b as usize]);
-                let slope = 0.5 * (bodies[0].slope + bodies[1].slope);
-                let coefficient = impedance * steepness(method, approach, sound, slope);
-                spring.drag = coefficient * approach;
-                rate = rate.max(DAMPING * coefficient * inertia);
-            }
+            spring.drag = coefficient * approach;
             let force = spring.force + spring.drag;
             let mut add = |i: usize, scale: f64, way: [f64; 3]| {
                 sums.fx[i] += scale * way[0];
@@ -271,19 +292,18 @@ impl Surfaces {
         past.extend(springs.drain(..).map(|spring| spring.past));
         shell.follow(mesh, contacts);
         let mut before = past.iter().peekable();
-        for (from, lookout) in shell.lookouts.iter().enumerate() {
-            let Lookout { start, .. } = lookout;
+        for from in 0..shell.lookouts.len() {
+            let lookout = shell.lookouts[from];
+            let start = &lookout.start;
             let places = places_of(contacts, &start.corners);
             for (point, at) in POINTS.into_iter().enumerate().take(start.points()) {
-                let Some((faces, other)) = shell.seen(contacts, lookout, point) else { continue };
                 let x = mean_of(&places, &start.shares(point));
                 let slot = start.slot + point as u32;
                 while before.next_if(|old| old.slot < slot).is_some() {}
                 let old = before.peek().filter(|old| old.slot == slot);
                 let likely = old.map(|old| old.face);
-                let Some((face, near)) = nearest_face(contacts, x, faces, likely) else {
-                    continue;
-                };
+                let seen = shell.seen((mesh, contacts), (&lookout, point), x, likely);
+                let Some((face, near, other)) = seen else { continue };
                 let mut spring = Spring::new((start, from), point, (face, other), &near);
                 let own = &mut spring.past;
                 let stand = old.map_or(0.0, |old| old.stand);
@@ -312,51 +332,42 @@ impl Surfaces {
     }
 }
 
+/// Longest diagonal of a face of the surface of a body, undeformed.
+fn widest_diagonal(mesh: &Mesh, body: usize) -> f64 {
+    let lattice = &mesh.bodies[body].lattice;
+    let mut widest = 0.0f64;
+    for &at in &lattice.nodes {
+        each_face(mesh, body, at, |nodes, _| {
+            let [a, b, c, d] = nodes.map(|node| lattice.position(mesh.place(node).1));
+            for way in [minus(c, a), minus(d, b)] {
+                widest = widest.max(dot(way, way).sqrt());
+            }
+        });
+    }
+    widest
+}
+
 /// Distance at which the surfaces of two bodies feel each other.
 fn full_stand(mesh: &Mesh, bodies: [u16; 2]) -> f64 {
     let edges = bodies.map(|body| mesh.bodies[body as usize].edge());
     0.5 * STAND * (edges[0] + edges[1])
 }
 
-/// Impedance times area, and sound speed: means of the point and the surface. Each of the two surfaces
-/// stands for half of the area.
-fn resistance(
+/// Coefficient of the viscous force of a spring. Impedance and sound speed are means of the point and the
+/// surface; each of the two surfaces stands for half of the area.
+fn viscosity(
     (derived, contacts): (&Derived, &Contacts),
-    spring: &Spring,
-    start: &Start,
-) -> (f64, f64) {
+    (mesh, method): (&Mesh, &Method),
+    (spring, start): (&Spring, &Start),
+    approach: f64,
+) -> f64 {
     let (mut impedance, mut sound) = (0.0, 0.0);
     for (i, share) in spring.shares(contacts, start) {
         let share = 0.5 * share.abs();
         impedance += share * derived.rho[i] * derived.sound[i];
         sound += share * derived.sound[i];
     }
-    (0.5 * spring.past.area * impedance, sound)
-}
-
-/// The nearest point of some faces, the first of equals. It is sought first on a face where it is likely.
-fn nearest_face(
-    contacts: &Contacts,
-    x: [f64; 3],
-    faces: impl Iterator<Item = Corners> + Clone,
-    likely: Option<Corners>,
-) -> Option<(Corners, Nearest)> {
-    let faces = faces.enumerate();
-    let mut best = faces.clone().find(|&(_, face)| Some(face) == likely).map(|(place, face)| {
-        let near = Nearest::of(x, places_of(contacts, &face));
-        (near, place, face)
-    });
-    for (place, face) in faces {
-        let (limit, known) = best.map_or((f64::INFINITY, None), |(n, at, _)| (n.square, Some(at)));
-        if known == Some(place) {
-            continue;
-        }
-        let near = Nearest::within(x, places_of(contacts, &face), limit);
-        let earlier = known.is_some_and(|known| place < known);
-        best = near
-            .filter(|near| near.square < limit || near.square == limit && earlier)
-            .map(|near| (near, place, face))
-            .or(best);
-    }
-    best.filter(|(near, ..)| near.square > 0.0).map(|(near, _, face)| (face, near))
+    let slopes = spring.bodies.map(|body| mesh.bodies[usize::from(body)].slope);
+    let slope = 0.5 * (slopes[0] + slopes[1]);
+    0.5 * spring.past.area * impedance * steepness(method, approach, sound, slope)
 }

@@ -1,7 +1,8 @@
 //! The live surfaces that stand in front of each other: where springs may start, and the faces that they
-//! may end on. They are found with the list of pairs, for as long as that serves.
+//! may end on. What may ever be in reach is found with the list of pairs, for as long as that serves; what
+//! is, by the present positions alone, so that nothing depends on when the list was made.
 
-use super::face::{Corners, corners_of, each_face};
+use super::face::{Corners, Nearest, corners_of, each_face, nearest_face};
 use super::meet;
 use super::spring::Start;
 use crate::space::contacts::Contacts;
@@ -15,14 +16,16 @@ const UNKNOWN: u32 = u32::MAX;
 /// End of the faces round a node.
 const END: Corners = [NONE; 4];
 
-/// A place where springs may start, and what stands in front of each of its corners.
+/// Distance in contact lengths within which a node of the other surface is sought: that of the middle of
+/// a face stretched to 1.5 times its edge, at which a surface is felt, and a little more.
+pub(in crate::space) const REACH: f64 = 1.4;
+
+/// A place where springs may start, and what may stand in front of each of its corners.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Lookout {
     pub(super) start: Start,
-    /// Of each corner, its number among those that have something in front of them.
+    /// Of each corner, its number among those that may have something in front of them.
     ahead: Corners,
-    /// The same of one that has, for those that have not.
-    first: u32,
 }
 
 /// Surfaces in front of each other.
@@ -30,24 +33,23 @@ pub(super) struct Lookout {
 pub(super) struct Shell {
     /// Changes of the list of pairs that are known.
     known: Option<u64>,
-    /// Members and the nodes of other bodies' live surfaces in front of them, in order.
+    /// Members and the nodes of other bodies' live surfaces that may be in front of them, in order.
     ways: Vec<[u32; 2]>,
-    /// The nearest of the nodes, member by member.
+    /// The nearest of the nodes in reach, member by member.
     nearest: Vec<u32>,
     /// In the order of their places.
     pub(super) lookouts: Vec<Lookout>,
-    /// Where the faces round a member begin.
-    round: Vec<u32>,
-    faces: Vec<Corners>,
+    /// The faces round nodes.
+    stars: Stars,
 }
 
 impl Shell {
     /// Bytes that it takes.
     pub(super) fn bytes(&self) -> usize {
         8 * self.ways.capacity()
-            + 4 * (self.nearest.capacity() + self.round.capacity())
+            + 4 * self.nearest.capacity()
             + self.lookouts.capacity() * std::mem::size_of::<Lookout>()
-            + 16 * self.faces.capacity()
+            + self.stars.bytes()
     }
 
     /// Follows the members to their present positions.
@@ -56,55 +58,46 @@ impl Shell {
             self.known = Some(contacts.changes());
             self.find_ways(mesh, contacts);
             self.find_lookouts(mesh, contacts);
-            self.round.clear();
-            roomy(&mut self.round, contacts.members());
-            self.round.resize(contacts.members(), UNKNOWN);
-            self.faces.clear();
+            self.stars.forget(contacts.members());
         }
-        let Self { ways, nearest, round, faces, .. } = self;
+        let Self { ways, nearest, .. } = self;
         nearest.clear();
         for ways in ways.chunk_by(|a, b| a[0] == b[0]) {
-            let own = contacts.position(ways[0][0]);
+            let length = |at: u32| mesh.bodies[contacts.body(at)].length;
+            let (own, least) = (contacts.position(ways[0][0]), length(ways[0][0]));
             let mut best = (f64::INFINITY, NONE);
             for &[_, node] in ways {
                 let other = contacts.position(node);
                 let square: f64 = (0..3).map(|d| (own[d] - other[d]).powi(2)).sum();
-                if square < best.0 {
+                if square < best.0 && square < (REACH * least.max(length(node))).powi(2) {
                     best = (square, node);
                 }
             }
             put(nearest, best.1);
-            if let Some(round) = round.get_mut(best.1 as usize).filter(|at| **at == UNKNOWN) {
-                *round = faces.len() as u32;
-                let node = contacts.member(best.1 as usize);
-                each_face(mesh, node.body, node.place, |nodes, _| {
-                    if let Some(corners) = corners_of(contacts, &nodes) {
-                        put(faces, corners);
-                    }
-                });
-                put(faces, END);
-            }
         }
     }
 
-    /// The faces that a point of a lookout may see, and their body.
+    /// The nearest point that point number `point` of a lookout, at `x`, sees of another body's surface, with
+    /// its face and that body. It is `likely` on this face.
     #[inline(always)]
-    pub(super) fn seen<'a>(
-        &'a self,
-        contacts: &Contacts,
-        lookout: &Lookout,
-        point: usize,
-    ) -> Option<(impl Iterator<Item = Corners> + Clone + use<'a>, usize)> {
-        let ahead = lookout.ahead[point];
-        let ahead = if ahead == NONE { lookout.first } else { ahead };
-        let node = self.nearest[ahead as usize];
-        let round = *self.round.get(node as usize)?;
-        let faces = self.faces[round as usize..].iter().copied();
-        let body = contacts.member(node as usize).body;
-        Some((faces.take_while(|face| *face != END), body))
+    pub(super) fn seen(
+        &mut self,
+        of: (&Mesh, &Contacts),
+        (lookout, point): (&Lookout, usize),
+        x: [f64; 3],
+        likely: Option<Corners>,
+    ) -> Option<(Corners, Nearest, usize)> {
+        let ahead = |corner: usize| {
+            let node = *self.nearest.get(lookout.ahead[corner] as usize)?;
+            (node != NONE).then_some(node)
+        };
+        // What its own corner has in front of it; or the first that has something.
+        let node = std::iter::once(point).chain(0..4).find_map(ahead)?;
+        let (face, near) = self.stars.nearest(of, x, node, likely)?;
+        Some((face, near, of.1.body(face[0])))
     }
 
-    /// Finds who stands in front of whom.
+    /// Finds who may stand in front of whom.
     fn find_ways(&mut self, mesh: &Mesh, contacts: &Contacts) {
         self.ways.clear();
         for [a, b] in contacts.exposed_pairs() {
@@ -119,10 +112,11 @@ impl Shell {
         self.ways.sort_unstable();
     }
 
-    /// Finds where springs may start: at loose particles, and at faces with a corner in front of something.
+    /// Finds where springs may start: at loose particles, and at faces with a corner that may be in front of
+    /// something.
     fn find_lookouts(&mut self, mesh: &Mesh, contacts: &Contacts) {
         let Self { ways, lookouts, nearest, .. } = self;
-        // For now the members in front of something themselves.
+        // For now the members that may be in front of something themselves.
         nearest.clear();
         ways.chunk_by(|a, b| a[0] == b[0]).for_each(|ways| put(nearest, ways[0][0]));
         lookouts.clear();
@@ -131,19 +125,84 @@ impl Shell {
             let one = contacts.member(member as usize);
             if !mesh.held(one.particle) {
                 let start = Start::loose(member as usize, one.body);
-                put(lookouts, Lookout { start, ahead: [first; 4], first });
+                put(lookouts, Lookout { start, ahead: [first; 4] });
                 continue;
             }
             each_face(mesh, one.body, one.place, |nodes, side| {
                 let Some(corners) = corners_of(contacts, &nodes) else { return };
                 let ahead = corners.map(find);
-                // Of the corners in front of something the first looks after the face.
+                // The first of those corners looks after the face.
                 if ahead.iter().find(|&&at| at != NONE) == Some(&first) {
                     let start = Start::face(corners, side / 2, one.body);
-                    put(lookouts, Lookout { start, ahead, first });
+                    put(lookouts, Lookout { start, ahead });
                 }
             });
         }
         lookouts.sort_unstable_by_key(|lookout| lookout.start.slot);
+    }
+}
+
+/// The faces of live surfaces round their nodes, node by node as they are asked for.
+#[derive(Debug, Clone, Default)]
+struct Stars {
+    /// Where the faces round a member begin.
+    first: Vec<u32>,
+    faces: Vec<Corners>,
+}
+
+impl Stars {
+    fn bytes(&self) -> usize {
+        4 * self.first.capacity() + 16 * self.faces.capacity()
+    }
+
+    /// Forgets all, of so many members.
+    fn forget(&mut self, members: usize) {
+        self.first.clear();
+        roomy(&mut self.first, members);
+        self.first.resize(members, UNKNOWN);
+        self.faces.clear();
+    }
+
+    /// The faces round a node.
+    fn round(
+        &mut self,
+        (mesh, contacts): (&Mesh, &Contacts),
+        node: u32,
+    ) -> impl Iterator<Item = Corners> + Clone + use<'_> {
+        let Self { first, faces } = self;
+        let first = &mut first[node as usize];
+        if *first == UNKNOWN {
+            *first = faces.len() as u32;
+            let node = contacts.member(node as usize);
+            each_face(mesh, node.body, node.place, |nodes, _| {
+                if let Some(corners) = corners_of(contacts, &nodes) {
+                    put(faces, corners);
+                }
+            });
+            put(faces, END);
+        }
+        let faces = faces[*first as usize..].iter().copied();
+        faces.take_while(|face| *face != END)
+    }
+
+    /// The point of a surface nearest to `x`, from one of its nodes on: where the nearest of the faces round
+    /// it lies on their rim, the surface may come nearer beyond, and those round a corner there are looked at
+    /// as well. So faces much smaller than that of `x` are found, however far from its corner.
+    fn nearest(
+        &mut self,
+        of: (&Mesh, &Contacts),
+        x: [f64; 3],
+        mut node: u32,
+        likely: Option<Corners>,
+    ) -> Option<(Corners, Nearest)> {
+        let mut best = nearest_face(of.1, x, self.round(of, node), likely)?;
+        while let Some(next) = best.1.beyond(&best.0, node) {
+            let (face, near) = nearest_face(of.1, x, self.round(of, next), likely)?;
+            if near.square >= best.1.square {
+                break;
+            }
+            (best, node) = ((face, near), next);
+        }
+        Some(best)
     }
 }

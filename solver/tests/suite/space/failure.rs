@@ -107,10 +107,7 @@ fn plastic_work_is_heat() {
     material.failure.compression = 0.1;
     let fast = Body { velocity: [0.02, 0.0, 0.0], ..block("copper", [8, 4, 4], 0.1) };
     let slow = Body { centre: [0.85, 0.0, 0.0], ..block("copper", [8, 4, 4], 0.1) };
-    let mut scene = scene(vec![material], vec![fast, slow]);
-    // The step in which all of two faces meet is too long for the viscosity that it meets with: of that
-    // comes a residual of 9e-3 with the coefficient of the default.
-    scene.method.visc_linear = 0.3;
+    let scene = scene(vec![material], vec![fast, slow]);
     let mut simulation = start(&scene);
     march(&mut simulation, 120);
     let b = simulation.balance();

@@ -16,4 +16,5 @@ mod reference;
 mod refusals;
 mod scenes;
 mod stability;
+mod surfaces;
 mod viscosity;

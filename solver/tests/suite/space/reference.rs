@@ -851,8 +851,13 @@ impl Plain {
         (0.25 * norm(area), slopes.collect(), normal)
     }
 
+    /// Where a point with these shares of particles is.
+    fn place(&self, shares: &[(usize, f64)]) -> V {
+        shares.iter().fold([0.0; 3], |x, &(i, share)| add(x, times(self.position(i), share)))
+    }
+
     fn spring_on(&self, own: &[(usize, f64)], element: usize, face: [usize; 4]) -> Spring {
-        let x = own.iter().fold([0.0; 3], |x, &(i, share)| add(x, times(self.position(i), share)));
+        let x = self.place(own);
         let p = &self.particles[own[0].0];
         let (shares, r) = self.nearest(x, face);
         let (first, other) = (&self.bodies[p.body], &self.bodies[self.elements[element].body]);
@@ -873,7 +878,8 @@ impl Plain {
         }
     }
 
-    /// The spring of a point on the faces of a body round its node nearest to a particle.
+    /// The spring of a point on the faces of a body round its node nearest to a particle; and where it ends
+    /// on their rim, round the corner there as well, if it is near enough to matter.
     fn nearest_spring(
         &self,
         own: &[(usize, f64)],
@@ -883,10 +889,24 @@ impl Plain {
         let x = self.position(particle);
         let away = |&node: &usize| norm(sub(self.position(node), x));
         let nodes = surface.iter().flat_map(|(_, face)| face).copied();
-        let node = nodes.min_by(|a, b| away(a).total_cmp(&away(b)))?;
-        let round = surface.iter().filter(|(_, face)| face.contains(&node));
-        let all = round.map(|&(e, face)| self.spring_on(own, e, face));
-        all.min_by(|a, b| a.z.total_cmp(&b.z))
+        let mut node = nodes.min_by(|a, b| away(a).total_cmp(&away(b)))?;
+        let mut best: Option<Spring> = None;
+        loop {
+            let round = surface.iter().filter(|(_, face)| face.contains(&node));
+            let all = round.map(|&(e, face)| self.spring_on(own, e, face));
+            let near = all.min_by(|a, b| a.z.total_cmp(&b.z))?;
+            if best.as_ref().is_some_and(|best| near.z >= best.z) {
+                return best;
+            }
+            let inside = near.face.iter().any(|&(i, share)| i == node && share > 0.0);
+            let next = near.face.iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
+            node = next.0;
+            let far = near.z > self.length(self.elements[near.element].body);
+            best = Some(near);
+            if inside || far {
+                return best;
+            }
+        }
     }
 
     fn find_springs(&mut self, old: &[Spring]) {
@@ -989,14 +1009,10 @@ impl Plain {
                 let stiff = s.area * s.stiffness / s.z.clamp(0.2, 1.0).powi(3);
                 self.rate = self.rate.max((stiff * inertia).sqrt() / s.stand);
             }
-            if s.z >= 1.0 {
-                continue;
-            }
-            self.touches += 1;
-            let deep = s.z.max(0.2);
-            let force = s.area * s.stiffness * 0.5 * (1.0 / (deep * deep) - 1.0) / s.stand;
+            // What is met within two steps slows them down before.
+            let ahead = if self.dt > 0.0 { 2.0 * self.dt } else { solid.edge / solid.fast };
             let mut drag = 0.0;
-            if approach > 0.0 {
+            if approach > 0.0 && s.stand * (s.z - 1.0) < approach * ahead {
                 let mean = |pick: &dyn Fn(&Particle) -> f64| -> f64 {
                     parts.iter().map(|&(i, share)| 0.5 * share.abs() * pick(p(i))).sum()
                 };
@@ -1007,6 +1023,12 @@ impl Plain {
                 self.rate = self.rate.max(2.0 * nu * inertia);
                 drag = nu * approach;
             }
+            if s.z >= 1.0 {
+                continue;
+            }
+            self.touches += 1;
+            let deep = s.z.max(0.2);
+            let force = s.area * s.stiffness * 0.5 * (1.0 / (deep * deep) - 1.0) / s.stand;
             let way = s.way;
             for (i, share) in parts {
                 let p = &mut self.particles[i];

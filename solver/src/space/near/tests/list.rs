@@ -44,7 +44,7 @@ proptest! {
         for (i, flags) in (0..).zip(&mut open.flags) {
             *flags |= if fresh(i) { EXPOSED } else { 0 };
         }
-        list.extend(fresh, keep);
+        list.extend(&cloud.length, fresh, keep);
         prop_assert!(is_strictly_sorted(list.pairs()));
         let kept = |mut pairs: Vec<[u32; 2]>| {
             pairs.retain(|&[i, j]| keep(i, j));
@@ -114,6 +114,38 @@ fn lattice_spares_tests_and_loses_no_pair() {
     assert!(!plain.pairs().is_empty());
     assert_eq!(plain.pairs(), spared.pairs());
     assert!(spared.counters().tests < plain.counters().tests * 9 / 10);
+}
+
+/// However a pair at the end of the reach is come upon, one arithmetic says whether it is listed: a list
+/// that was added to is one made anew at the same places.
+#[test]
+fn pairs_at_the_end_of_the_reach_do_not_depend_on_how_they_are_found() {
+    let far = REACH.factor * f64::from(0.866_f32) + REACH.skin;
+    let mut cloud = Cloud::default();
+    for k in 0..8000_u32 {
+        let (k, at) =
+            (f64::from(k), [f64::from(k % 20), f64::from(k / 20 % 20), f64::from(k / 400)]);
+        let at = at.map(|x| 7.1 * x + (0.37 * k).sin());
+        let away = far * (1.0 + 4e-5 * k / 8000.0);
+        let (sin, cos) = (1.7 * k).sin_cos();
+        cloud.push(at, 0.866, 0);
+        cloud.push([at[0] + away * cos, at[1], at[2] + away * sin], 0.866, 0);
+    }
+    let mut grown = PairList::new();
+    grown.rebuild(&cloud.points(), REACH, all);
+    assert!(grown.pairs().is_empty());
+    cloud.flags.iter_mut().step_by(2).for_each(|flags| *flags = EXPOSED);
+    grown.extend(&cloud.length, |i| i.is_multiple_of(2), all);
+    let mut anew = PairList::new();
+    anew.rebuild(&cloud.points(), REACH, all);
+    assert!((1000..7000).contains(&anew.pairs().len()), "{}", anew.pairs().len());
+    assert!(grown.pairs() == anew.pairs());
+    // Which of them come first in their cells is another thing.
+    let before = anew.pairs().to_vec();
+    cloud.flags.iter_mut().skip(1).step_by(2).for_each(|flags| *flags = EXPOSED);
+    cloud.flags.iter_mut().step_by(6).for_each(|flags| *flags = 0);
+    anew.rebuild(&cloud.points(), REACH, all);
+    assert!(anew.pairs() == before);
 }
 
 #[test]

@@ -382,9 +382,9 @@ impl Contacts {
             self.refresh(mesh, state, method);
             return;
         }
-        let Self { list, flags, body, place, volumes, .. } = self;
+        let Self { list, length, flags, body, place, volumes, .. } = self;
         let keep = may_touch(mesh, (flags, body), volumes.then_some(place));
-        list.extend(|member| flags[member as usize] & FRESH != 0, keep);
+        list.extend(length, |member| flags[member as usize] & FRESH != 0, keep);
         self.settle();
     }
 
