@@ -6,7 +6,7 @@
 //! which costs time and changes no answer.
 
 use super::held;
-use super::sort::{Item, Sorter, roomy};
+use super::sort::{Item, Sorter, Stand, roomy};
 use super::trace::Trace;
 use super::{Points, Reach};
 
@@ -29,10 +29,22 @@ pub(super) struct Member {
     pub(super) id: u32,
 }
 
+/// While members are sorted, they are not known.
+impl Stand for Member {
+    #[inline(always)]
+    fn of(item: Item) -> Self {
+        Self { at: [f64::from_bits(item.key), 0.0, 0.0], limit: 0.0, id: item.id }
+    }
+
+    #[inline(always)]
+    fn item(&self) -> Item {
+        Item { key: self.at[0].to_bits(), id: self.id }
+    }
+}
+
 /// The occupied cells and their members.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Grid {
-    sorter: Sorter,
     /// Bits of a key for each axis.
     pub(super) bits: [u32; 3],
     /// Key of each occupied cell, in order.
@@ -53,7 +65,7 @@ impl Grid {
     /// Bytes that it takes.
     pub(super) fn bytes(&self) -> usize {
         let cells = held(&self.keys) + held(&self.start) + held(&self.start_exposed);
-        self.sorter.bytes() + held(&self.all) + cells + held(&self.traces)
+        held(&self.all) + cells + held(&self.traces)
     }
 
     /// Members of a cell.
@@ -95,14 +107,19 @@ impl Grid {
         self.start.push(0);
     }
 
-    /// Sorts the members into cells. The longest reach, `far`, must be positive.
-    pub(super) fn build(&mut self, points: &Points<'_>, far: f64, reach: Reach) {
-        self.sort(points, far);
-        self.cells(points);
+    /// Sorts the members into cells, with the memory of a sorter. The longest reach, `far`, must be positive.
+    pub(super) fn build(
+        &mut self,
+        points: &Points<'_>,
+        (far, reach): (f64, Reach),
+        sorter: &mut Sorter,
+    ) {
+        self.sort(points, far, sorter);
+        self.cells(points, &sorter.items);
         self.scale = 1.0 / far;
         self.all.clear();
         roomy(&mut self.all, points.x.len());
-        for item in &self.sorter.items {
+        for item in &sorter.items {
             let i = item.id as usize;
             let own = (reach.factor * f64::from(points.length[i]) + reach.skin) * self.scale;
             // The last term covers the rounding of positions in `f32`, relative to the longest reach: what
@@ -113,7 +130,7 @@ impl Grid {
         }
     }
 
-    fn sort(&mut self, points: &Points<'_>, far: f64) {
+    fn sort(&mut self, points: &Points<'_>, far: f64, sorter: &mut Sorter) {
         // Wider than the reach by more than the slack of the comparison and the rounding here.
         let per = 1.0 / (far * (1.0 + 4.0 * SLACK));
         let axes = [points.x, points.y, points.z];
@@ -134,7 +151,7 @@ impl Grid {
             };
             at(0) | at(1) | at(2)
         };
-        let items = &mut self.sorter.items;
+        let items = &mut sorter.items;
         items.clear();
         roomy(items, points.x.len());
         // The sort keeps the order of equal keys: exposed members come first in each cell.
@@ -142,11 +159,10 @@ impl Grid {
             let chosen = (0..).zip(points.flags).filter(|&(i, _)| points.is_exposed(i) == first);
             items.extend(chosen.map(|(i, _)| Item { key: key(i as usize), id: i }));
         }
-        self.sorter.sort(self.bits.iter().sum());
+        sorter.sort(self.bits.iter().sum(), &mut self.all);
     }
 
-    fn cells(&mut self, points: &Points<'_>) {
-        let items = &self.sorter.items;
+    fn cells(&mut self, points: &Points<'_>, items: &[Item]) {
         let cells = items.chunk_by(|&a, &b| { a.key } == { b.key }).count();
         for buffer in [&mut self.start, &mut self.start_exposed] {
             buffer.clear();

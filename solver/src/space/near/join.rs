@@ -1,4 +1,4 @@
-//! Pairs of all chunks, joined and sorted.
+//! Pairs of all threads, joined and sorted.
 
 use super::held;
 use super::sort::roomy;
@@ -6,58 +6,51 @@ use super::sort::roomy;
 /// Memory for joining.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Joiner {
-    /// For each index, how many pairs have it first and second; then where the next of them goes.
-    places: Vec<[u32; 2]>,
-    by_second: Vec<[u32; 2]>,
+    /// For each index, how many pairs have it; then where the next of them goes.
+    places: Vec<u32>,
 }
 
 impl Joiner {
     /// Bytes that it takes.
     pub(super) fn bytes(&self) -> usize {
-        held(&self.places) + held(&self.by_second)
+        held(&self.places)
     }
 
-    /// Joins the pairs of the chunks, sorted by first index and then by second.
+    /// Sorts the pairs that were found by first index and then by second, into `pairs`. What is left in
+    /// `found` is of no use.
     ///
     /// Two passes of a counting sort: runs are too short, and too random, for comparisons to pay.
-    pub(super) fn join<'a>(
+    pub(super) fn join(
         &mut self,
-        chunks: impl Iterator<Item = &'a [[u32; 2]]> + Clone,
+        found: &mut Vec<[u32; 2]>,
         members: usize,
         pairs: &mut Vec<[u32; 2]>,
     ) {
-        let Self { places, by_second } = self;
-        places.clear();
-        roomy(places, members);
-        places.resize(members, [0; 2]);
-        for chunk in chunks.clone() {
-            for &[first, second] in chunk {
-                places[first as usize][0] += 1;
-                places[second as usize][1] += 1;
-            }
-        }
-        let mut sums = [0; 2];
-        for place in places.iter_mut() {
-            let counts = *place;
-            *place = sums;
-            sums = [sums[0] + counts[0], sums[1] + counts[1]];
-        }
-        let found = sums[0] as usize;
-        for buffer in [&mut *by_second, &mut *pairs] {
-            roomy(buffer, found);
-            buffer.resize(found, [0; 2]);
-        }
-        for chunk in chunks {
-            for pair in chunk {
-                let place = &mut places[pair[1] as usize][1];
-                by_second[*place as usize] = *pair;
+        roomy(pairs, found.len());
+        pairs.resize(found.len(), [0; 2]);
+        for which in [1, 0] {
+            self.count(members, found, which);
+            for pair in &*found {
+                let place = &mut self.places[pair[which] as usize];
+                pairs[*place as usize] = *pair;
                 *place += 1;
             }
+            std::mem::swap(found, pairs);
         }
-        for pair in by_second {
-            let place = &mut places[pair[0] as usize][0];
-            pairs[*place as usize] = *pair;
-            *place += 1;
+        std::mem::swap(found, pairs);
+    }
+
+    /// Finds where pairs begin that are sorted by their first or second index, of so many members.
+    fn count(&mut self, members: usize, pairs: &[[u32; 2]], which: usize) {
+        self.places.clear();
+        roomy(&mut self.places, members);
+        self.places.resize(members, 0);
+        for pair in pairs {
+            self.places[pair[which] as usize] += 1;
+        }
+        let mut sum = 0;
+        for place in &mut self.places {
+            (*place, sum) = (sum, sum + *place);
         }
     }
 }

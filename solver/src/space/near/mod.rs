@@ -4,7 +4,7 @@
 //! `factor * max(length) + skin`, and the caller keeps it. The list serves until two members that
 //! are not on it may be closer than `factor * max(length)`.
 //!
-//! Invariant: chunks, their order and the order of the list do not depend on the number of threads.
+//! Invariant: what is found and the order of the list do not depend on the number of threads.
 
 mod grid;
 mod join;
@@ -16,14 +16,15 @@ mod tests;
 mod trace;
 mod windows;
 
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use rayon::prelude::*;
 
 use grid::{Grid, SLACK};
 use join::Joiner;
 use motion::{Free, Motion};
-use search::{Block, CHUNK, Slot};
+use search::{CHUNK, Finder};
+use sort::Sorter;
 
 pub(super) use sort::{put, roomy};
 
@@ -91,9 +92,9 @@ pub struct Counters {
 pub struct PairList {
     grid: Grid,
     motion: Motion,
-    slots: Vec<Slot>,
-    /// Candidates, thread by thread.
-    blocks: Vec<Candidates>,
+    sorter: Sorter,
+    /// What is found, thread by thread.
+    finders: Vec<OneThread>,
     joiner: Joiner,
     pairs: Vec<[u32; 2]>,
     /// Pairs to be added.
@@ -107,15 +108,20 @@ pub struct PairList {
 
 /// Memory of one thread; the lock is never waited for.
 #[derive(Debug, Default)]
-struct Candidates(Mutex<Block>);
+struct OneThread(Mutex<Finder>);
 
-impl Candidates {
-    fn bytes(&self) -> usize {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner).bytes()
+impl OneThread {
+    // Of a thread that panicked nothing is left that matters: what it found is cleared before a search.
+    fn lock(&self) -> MutexGuard<'_, Finder> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn get(&mut self) -> &mut Finder {
+        self.0.get_mut().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
-impl Clone for Candidates {
+impl Clone for OneThread {
     fn clone(&self) -> Self {
         Self::default()
     }
@@ -169,7 +175,7 @@ impl PairList {
         let skin = reach.skin;
         let far = contact + skin;
         if far > 0.0 {
-            self.grid.build(points, far, reach);
+            self.grid.build(points, (far, reach), &mut self.sorter);
         } else {
             self.grid.clear();
         }
@@ -180,32 +186,33 @@ impl PairList {
             reach.holds([i, j].map(|i| points.at(i)), lengths)
         };
         self.search(chunks, &|i, j| keep(i, j) && holds(i, j));
-        let found = self.slots[..chunks].iter();
-        self.joiner.join(found.map(|slot| &slot.pairs[..]), n, &mut self.pairs);
-        self.counters.tests += self.slots[..chunks].iter().map(|slot| slot.tests).sum::<u64>();
+        let Self { finders, joiner, pairs, counters, .. } = self;
+        let Some((first, others)) = finders.split_first_mut() else { return };
+        let first = first.get();
+        for other in others {
+            first.take(other.get());
+        }
+        counters.tests += first.tests;
+        joiner.join(&mut first.pairs, n, pairs);
         self.counters.pairs += self.pairs.len() as u64;
     }
 
     fn search(&mut self, chunks: usize, keep: &(impl Fn(u32, u32) -> bool + Sync)) {
-        if self.slots.len() < chunks {
-            self.slots.resize_with(chunks + chunks / 4, Slot::default);
+        let threads = rayon::current_num_threads();
+        if self.finders.len() < threads {
+            self.finders.resize_with(threads, OneThread::default);
         }
-        if self.blocks.len() < rayon::current_num_threads() {
-            self.blocks.resize_with(rayon::current_num_threads(), Candidates::default);
-        }
-        let Self { grid, motion, slots, blocks, .. } = self;
-        let slots = slots[..chunks].par_iter_mut().enumerate();
+        let Self { grid, motion, sorter, finders, .. } = self;
+        finders.iter_mut().for_each(|finder| finder.get().clear());
+        let chunks = (0..chunks).into_par_iter();
         rayon::join(
             || {
-                slots.for_each(|(c, slot)| {
+                chunks.for_each(|c| {
                     let own = rayon::current_thread_index().unwrap_or(0);
-                    // Of a thread that panicked nothing is left that matters: blocks are filled anew.
-                    let block = blocks[own].0.lock();
-                    let mut block = block.unwrap_or_else(PoisonError::into_inner);
-                    slot.search((grid, &mut block), c, keep);
+                    finders[own].lock().search(grid, c, keep);
                 });
             },
-            || motion.start(grid),
+            || motion.start(grid, sorter),
         );
     }
 
@@ -265,10 +272,9 @@ impl PairList {
     /// Bytes that it takes.
     #[must_use]
     pub fn bytes(&self) -> usize {
-        let slots: usize = self.slots.iter().map(|slot| held(&slot.pairs)).sum();
-        let slots = slots + self.blocks.iter().map(Candidates::bytes).sum::<usize>();
+        let found: usize = self.finders.iter().map(|finder| finder.lock().bytes()).sum();
         let lists = held(&self.pairs) + held(&self.batch) + self.joiner.bytes();
-        self.grid.bytes() + self.motion.bytes() + slots + lists
+        self.grid.bytes() + self.motion.bytes() + self.sorter.bytes() + found + lists
     }
 
     /// What the search has done so far.

@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use super::Points;
 use super::grid::{Grid, Member};
 use super::held;
-use super::sort::{Item, Sorter, roomy};
+use super::sort::{Item, Sorter, put, roomy};
 
 /// Blocks per chunk.
 const CHUNK: usize = 64;
@@ -50,10 +50,12 @@ struct Level {
 /// State of the members when the list was made.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Motion {
-    /// The cells of the grid, block by block.
-    sorter: Sorter,
-    /// Cells in front of each block, and of all.
+    /// Members of the grid that stand side by side in a block, from the first to the one behind the last.
+    runs: Vec<[u32; 2]>,
+    /// Runs in front of each block, and of all.
     start: Vec<u32>,
+    /// Memory to sort cells with.
+    spare: Vec<Item>,
     /// Blocks, pairs of blocks, and so on up to a single node.
     levels: Vec<Level>,
     depth: usize,
@@ -97,7 +99,7 @@ impl Motion {
     pub(super) fn bytes(&self) -> usize {
         let levels: usize =
             self.levels.iter().map(|level| held(&level.places) + held(&level.moves)).sum();
-        self.sorter.bytes() + held(&self.start) + levels
+        held(&self.runs) + held(&self.start) + held(&self.spare) + levels
     }
 
     /// Sets the limits for the list to come.
@@ -105,25 +107,33 @@ impl Motion {
         self.free = free;
     }
 
-    /// Remembers where the members are.
-    pub(super) fn start(&mut self, grid: &Grid) {
-        self.sort(grid);
+    /// Remembers where the members are, with the memory of a sorter.
+    pub(super) fn start(&mut self, grid: &Grid, sorter: &mut Sorter) {
+        self.sort(grid, sorter);
         self.start.clear();
-        roomy(&mut self.start, self.sorter.items.len() + 1);
+        self.runs.clear();
         let mut block = None;
-        for (k, item) in (0..).zip(&self.sorter.items) {
-            if block != Some(item.key) {
-                block = Some(item.key);
-                self.start.push(k);
+        for item in &sorter.items {
+            let [first, end] = [0, 1].map(|k| grid.start[item.id as usize + k]);
+            let same = block == Some(item.key);
+            match self.runs.last_mut().filter(|run| same && run[1] == first) {
+                Some(run) => run[1] = end,
+                None => {
+                    if !same {
+                        put(&mut self.start, self.runs.len() as u32);
+                    }
+                    put(&mut self.runs, [first, end]);
+                }
             }
+            block = Some(item.key);
         }
-        self.start.push(self.sorter.items.len() as u32);
+        put(&mut self.start, self.runs.len() as u32);
         self.grow(grid);
     }
 
     /// Puts the cells into the order of a space-filling curve over the blocks.
-    fn sort(&mut self, grid: &Grid) {
-        let items = &mut self.sorter.items;
+    fn sort(&mut self, grid: &Grid, sorter: &mut Sorter) {
+        let items = &mut sorter.items;
         items.clear();
         roomy(items, grid.keys.len());
         let most = (0..3).map(|k| grid.bits[k].saturating_sub(COARSE[k])).max().unwrap_or(0);
@@ -135,7 +145,7 @@ impl Motion {
             };
             items.push(Item { key: part(0) | part(1) | part(2), id: cell });
         }
-        self.sorter.sort(3 * most);
+        sorter.sort(3 * most, &mut self.spare);
     }
 
     /// Builds the tree over the blocks.
@@ -155,27 +165,24 @@ impl Motion {
             self.depth += 1;
             nodes = if nodes == 1 { 0 } else { nodes.div_ceil(2) };
         }
-        let Self { sorter, start, levels, depth, .. } = self;
+        let Self { runs, start, levels, depth, .. } = self;
         let Some(leaves) = levels.first_mut() else { return };
         for (place, range) in leaves.places.iter_mut().zip(start.windows(2)) {
-            for cell in &sorter.items[range[0] as usize..range[1] as usize] {
-                grid.members(cell.id).iter().for_each(|member| place.add(member.at));
-            }
+            members(grid, runs, range).for_each(|member| place.add(member.at));
         }
         climb(&mut levels[..*depth], |level| &mut level.places);
     }
 
     /// Whether two members that were apart by more than the skin may be in contact.
     pub(super) fn is_large(&mut self, grid: &Grid, points: &Points<'_>) -> bool {
-        let Self { sorter, start, levels, depth, .. } = self;
+        let Self { runs, start, levels, depth, .. } = self;
         if *depth == 0 {
             return false;
         }
         levels[0].moves.par_chunks_mut(CHUNK).enumerate().for_each(|(c, moves)| {
             for (own, range) in moves.iter_mut().zip(start[c * CHUNK..].windows(2)) {
                 *own = Bounds::NOTHING;
-                let cells = &sorter.items[range[0] as usize..range[1] as usize];
-                for Member { at, id, .. } in cells.iter().flat_map(|cell| grid.members(cell.id)) {
+                for Member { at, id, .. } in members(grid, runs, range) {
                     let i = *id as usize;
                     own.add([points.x[i] - at[0], points.y[i] - at[1], points.z[i] - at[2]]);
                 }
@@ -213,6 +220,17 @@ impl Motion {
         let (first, second) = rayon::join(|| with(2 * a), || last == 2 * a || with(last));
         first && second
     }
+}
+
+/// Members of a range of runs.
+#[inline(always)]
+fn members<'a>(
+    grid: &'a Grid,
+    runs: &'a [[u32; 2]],
+    range: &[u32],
+) -> impl Iterator<Item = &'a Member> {
+    let runs = &runs[range[0] as usize..range[1] as usize];
+    runs.iter().flat_map(|run| &grid.all[run[0] as usize..run[1] as usize])
 }
 
 /// Joins the boxes of two nodes each, from the blocks upwards.

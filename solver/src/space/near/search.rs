@@ -6,6 +6,7 @@
 
 use super::grid::{Grid, Member};
 use super::held;
+use super::sort::{put, roomy};
 use super::windows::Windows;
 
 /// Cells per chunk.
@@ -17,18 +18,19 @@ const LANES: usize = 32;
 /// Distance from the origin, in reaches, that no two members of one true cell have.
 const FAR: f32 = 4.0;
 
-/// What a chunk of cells found, and the memory it needs for that.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Slot {
+/// What a thread found, and the memory it needs for that.
+#[derive(Debug, Default)]
+pub(super) struct Finder {
     /// Pairs, the lower index first.
     pub(super) pairs: Vec<[u32; 2]>,
     /// Distances compared.
     pub(super) tests: u64,
+    block: Block,
 }
 
 /// Candidates of a cell, relative to it, in units of the longest reach.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Block {
+#[derive(Debug, Default)]
+struct Block {
     x: Vec<f32>,
     y: Vec<f32>,
     z: Vec<f32>,
@@ -54,7 +56,7 @@ impl Frame {
 
 impl Block {
     /// Bytes that it takes.
-    pub(super) fn bytes(&self) -> usize {
+    fn bytes(&self) -> usize {
         let columns = [&self.x, &self.y, &self.z, &self.limit].map(held);
         columns.iter().sum::<usize>() + held(&self.id)
     }
@@ -94,26 +96,38 @@ impl Block {
     }
 }
 
-impl Slot {
-    /// Searches chunk `c` of the cells.
-    pub(super) fn search(
-        &mut self,
-        (grid, block): (&Grid, &mut Block),
-        c: usize,
-        keep: &impl Fn(u32, u32) -> bool,
-    ) {
+impl Finder {
+    /// Bytes that it takes.
+    pub(super) fn bytes(&self) -> usize {
+        held(&self.pairs) + self.block.bytes()
+    }
+
+    /// Forgets what it found.
+    pub(super) fn clear(&mut self) {
         self.pairs.clear();
         self.tests = 0;
+    }
+
+    /// Adds what another found.
+    pub(super) fn take(&mut self, other: &Self) {
+        let all = self.pairs.len() + other.pairs.len();
+        roomy(&mut self.pairs, all);
+        self.pairs.extend_from_slice(&other.pairs);
+        self.tests += other.tests;
+    }
+
+    /// Searches chunk `c` of the cells.
+    pub(super) fn search(&mut self, grid: &Grid, c: usize, keep: &impl Fn(u32, u32) -> bool) {
         let mut windows = Windows::new(grid, c * CHUNK);
         for cell in c * CHUNK..((c + 1) * CHUNK).min(grid.keys.len()) {
             windows.advance(grid, cell);
-            self.cell((grid, block), cell, &windows, keep);
+            self.cell(grid, cell, &windows, keep);
         }
     }
 
     fn cell(
         &mut self,
-        (grid, block): (&Grid, &mut Block),
+        grid: &Grid,
         cell: usize,
         windows: &Windows,
         keep: &impl Fn(u32, u32) -> bool,
@@ -124,16 +138,16 @@ impl Slot {
         let own = if windows.own { members } else { &[] };
         let others = windows.cells.iter().map(|&cells| range(&grid.all, &grid.start, cells));
         let all = std::iter::once(own).chain(others);
-        self.scan_all((exposed, block), &all, (&frame, windows.own), keep);
+        self.scan_all(exposed, &all, (&frame, windows.own), keep);
         let cells = windows.cells.iter().flat_map(|&[from, to]| from..to);
         let others = cells.map(|cell| grid.exposed(cell));
-        self.scan_all((hidden, block), &others, (&frame, false), keep);
+        self.scan_all(hidden, &others, (&frame, false), keep);
     }
 
     /// Compares members with the candidates in the ranges, of which they are the first if `own`.
     fn scan_all<'a>(
         &mut self,
-        (members, block): (&[Member], &mut Block),
+        members: &[Member],
         ranges: &(impl Iterator<Item = &'a [Member]> + Clone),
         (frame, own): (&Frame, bool),
         keep: &impl Fn(u32, u32) -> bool,
@@ -141,20 +155,20 @@ impl Slot {
         if members.is_empty() {
             return;
         }
-        block.fill(ranges.clone(), frame);
+        self.block.fill(ranges.clone(), frame);
         let mut frame = *frame;
         for (k, member) in members.iter().enumerate() {
             let first = if own { k + 1 } else { 0 };
-            if first >= block.used {
+            if first >= self.block.used {
                 return;
             }
             if frame.place(member).iter().any(|along| along.abs() > FAR) {
                 // Only by folding are they in the same cell: `f32` needs an origin nearby.
                 frame.origin = member.at;
-                block.fill(ranges.clone(), &frame);
+                self.block.fill(ranges.clone(), &frame);
             }
-            self.tests += (block.used - first) as u64;
-            self.scan((frame.place(member), member), (block, first), keep);
+            self.tests += (self.block.used - first) as u64;
+            self.scan((frame.place(member), member), first, keep);
         }
     }
 
@@ -163,10 +177,10 @@ impl Slot {
     fn scan(
         &mut self,
         (at, member): ([f32; 3], &Member),
-        (block, first): (&Block, usize),
+        first: usize,
         keep: &impl Fn(u32, u32) -> bool,
     ) {
-        let Block { x, y, z, limit, id, used } = block;
+        let Self { pairs, block: Block { x, y, z, limit, id, used }, .. } = self;
         let columns = x[..used.next_multiple_of(LANES)]
             .as_chunks()
             .0
@@ -183,7 +197,7 @@ impl Slot {
                 hits &= hits - 1;
                 let pair = [member.id.min(other), member.id.max(other)];
                 if keep(pair[0], pair[1]) {
-                    self.pairs.push(pair);
+                    put(pairs, pair);
                 }
             }
         }

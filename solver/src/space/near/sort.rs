@@ -22,45 +22,70 @@ pub(super) struct Item {
     pub(super) id: u32,
 }
 
+/// Something in whose memory an item can stand while items are sorted.
+pub(super) trait Stand: Copy {
+    /// An item as such.
+    fn of(item: Item) -> Self;
+    /// The item.
+    fn item(&self) -> Item;
+}
+
+impl Stand for Item {
+    #[inline(always)]
+    fn of(item: Item) -> Self {
+        item
+    }
+
+    #[inline(always)]
+    fn item(&self) -> Item {
+        *self
+    }
+}
+
 /// Sorts by key; items of equal keys keep their order.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Sorter {
     /// Items to be sorted, and sorted.
     pub(super) items: Vec<Item>,
-    spare: Vec<Item>,
     counts: Vec<[u32; VALUES]>,
 }
 
 impl Sorter {
     /// Bytes that it takes.
     pub(super) fn bytes(&self) -> usize {
-        held(&self.items) + held(&self.spare) + held(&self.counts)
+        held(&self.items) + held(&self.counts)
     }
 
-    /// Sorts the items by the lowest `bits` bits of their keys; the others must be zero.
-    pub(super) fn sort(&mut self, bits: u32) {
+    /// Sorts the items by the lowest `bits` bits of their keys; the others must be zero. What is in `spare`
+    /// is lost: every other pass leaves the items there.
+    pub(super) fn sort<S: Stand>(&mut self, bits: u32, spare: &mut Vec<S>) {
         let passes = bits.div_ceil(WIDEST).max(1);
         let width = bits.div_ceil(passes).max(1);
         self.count(passes, width);
-        roomy(&mut self.spare, self.items.len());
-        self.spare.resize(self.items.len(), Item::default());
-        for pass in 0..passes {
-            let starts = &mut self.counts[pass as usize];
-            let Some(first) = self.items.first() else { return };
-            let only = starts[digit(first.key, pass * width, width)] as usize;
-            if only == self.items.len() {
+        let Self { items, counts } = self;
+        let Some(first) = items.first().map(|item| item.key) else { return };
+        spare.clear();
+        roomy(spare, items.len());
+        spare.resize(items.len(), S::of(Item::default()));
+        let mut away = false;
+        for (pass, starts) in (0..passes).zip(counts) {
+            let of = |key| digit(key, pass * width, width);
+            if starts[of(first)] as usize == items.len() {
                 continue;
             }
             let mut sum = 0;
             for start in starts.iter_mut() {
                 (*start, sum) = (sum, sum + *start);
             }
-            for item in &self.items {
-                let place = &mut starts[digit(item.key, pass * width, width)];
-                self.spare[*place as usize] = *item;
-                *place += 1;
+            if away {
+                deal(spare, items, starts, of);
+            } else {
+                deal(items, spare, starts, of);
             }
-            std::mem::swap(&mut self.items, &mut self.spare);
+            away = !away;
+        }
+        if away {
+            items.iter_mut().zip(spare).for_each(|(item, own)| *item = own.item());
         }
     }
 
@@ -75,6 +100,21 @@ impl Sorter {
                 count[digit(item.key, pass * width, width)] += 1;
             }
         }
+    }
+}
+
+/// Puts items where those of their digit go.
+fn deal<A: Stand, B: Stand>(
+    from: &[A],
+    to: &mut [B],
+    starts: &mut [u32],
+    digit: impl Fn(u64) -> usize,
+) {
+    for item in from {
+        let item = item.item();
+        let place = &mut starts[digit(item.key)];
+        to[*place as usize] = B::of(item);
+        *place += 1;
     }
 }
 
