@@ -435,6 +435,15 @@ impl Mesh {
         [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
     }
 
+    /// Whether a surface keeps two particles apart: of two solid bodies, and one of them held.
+    #[inline(always)]
+    #[must_use]
+    pub fn keeps_apart(&self, pair: [usize; 2], bodies: [usize; 2]) -> bool {
+        bodies[0] != bodies[1]
+            && pair.iter().any(|&i| self.held(i))
+            && bodies.iter().all(|&b| self.bodies[b].solid.sound > 0.0)
+    }
+
     /// The real particles, in order.
     pub fn real(&self) -> impl Iterator<Item = usize> + '_ {
         let nodes = self.bodies.iter().flat_map(|b| b.nodes.clone());

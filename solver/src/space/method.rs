@@ -4,6 +4,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::method::{Density, Heating, Integrator, Preset, Viscosity};
 
+/// Smallest sound speed over the velocity of approach.
+const COLDEST: f64 = 1e-9;
+
 /// Reading of the printed yield function, Eqs. (39)-(46).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -87,6 +90,21 @@ impl Method {
         match self.density {
             Density::Kernel => self.kernel_support,
             Density::Nonholonomic | Density::Hybrid => self.contact_reach,
+        }
+    }
+
+    /// Coefficient of the viscous force of a contact over its impedance, Eq. (53), or that of the limited
+    /// viscosity: a contact has no neighbours that could explain its jump. `slope` is that of the shock
+    /// speed.
+    pub(super) fn steepness(&self, approach: f64, sound: f64, slope: f64) -> f64 {
+        // Of cold gas, whose impedance is nothing, the coefficient must still be a number.
+        let sound = sound.max(COLDEST * approach);
+        match self.viscosity {
+            Viscosity::Pairwise => self.visc_linear * (1.0 + self.visc_quad * approach / sound),
+            Viscosity::Limited => {
+                let steep = self.visc_quad * slope * approach / sound;
+                steep + (steep * steep + self.visc_linear * self.visc_linear).sqrt()
+            }
         }
     }
 }

@@ -12,13 +12,12 @@ mod shell;
 mod spring;
 
 pub(super) use self::memory::Memory;
-pub(super) use self::shell::REACH;
 
 use self::face::{POINTS, Part, dot, each_face, mean_of, minus, places_of};
 use self::shell::Shell;
 use self::spring::{DEEPEST, Law, Past, Spring, Start};
 use super::columns::{Derived, State, Sums};
-use super::contacts::{Contacts, steepness};
+use super::contacts::{Contacts, SIGHT};
 use super::mesh::Mesh;
 use super::method::Method;
 use super::near::{put, roomy};
@@ -42,14 +41,6 @@ const DAMPING: f64 = 2.0;
 /// Steps before it meets the surface from which on a point asks for steps as short as its viscosity then
 /// will, this one included: the kick in which they meet goes over half of the step before too.
 const AHEAD: f64 = 2.0;
-
-/// Whether a surface keeps two particles apart: of two solid bodies, and one of them held.
-#[inline(always)]
-pub fn meet(mesh: &Mesh, pair: [usize; 2], bodies: [usize; 2]) -> bool {
-    bodies[0] != bodies[1]
-        && pair.iter().any(|&i| mesh.held(i))
-        && bodies.iter().all(|&b| mesh.bodies[b].solid.sound > 0.0)
-}
 
 /// The points in front of surfaces.
 #[derive(Debug, Clone, Default)]
@@ -101,7 +92,7 @@ impl Surfaces {
                 let pair = [k as u16, other as u16];
                 let lengths = pair.map(|body| mesh.bodies[usize::from(body)].length);
                 let (far, most) =
-                    (half.hypot(full_stand(mesh, pair)), REACH * lengths[0].max(lengths[1]));
+                    (half.hypot(full_stand(mesh, pair)), SIGHT * lengths[0].max(lengths[1]));
                 (far > most).then_some((k, [far, most]))
             })
         })
@@ -369,5 +360,5 @@ fn viscosity(
     }
     let slopes = spring.bodies.map(|body| mesh.bodies[usize::from(body)].slope);
     let slope = 0.5 * (slopes[0] + slopes[1]);
-    0.5 * spring.past.area * impedance * steepness(method, approach, sound, slope)
+    0.5 * spring.past.area * impedance * method.steepness(approach, sound, slope)
 }

@@ -3,9 +3,8 @@
 //! is, by the present positions alone, so that nothing depends on when the list was made.
 
 use super::face::{Corners, Nearest, corners_of, each_face, nearest_face};
-use super::meet;
 use super::spring::Start;
-use crate::space::contacts::Contacts;
+use crate::space::contacts::{Contacts, SIGHT};
 use crate::space::lattice::NONE;
 use crate::space::mesh::Mesh;
 use crate::space::near::{put, roomy};
@@ -15,10 +14,6 @@ const UNKNOWN: u32 = u32::MAX;
 
 /// End of the faces round a node.
 const END: Corners = [NONE; 4];
-
-/// Distance in contact lengths within which a node of the other surface is sought: that of the middle of
-/// a face stretched to 1.5 times its edge, at which a surface is felt, and a little more.
-pub(in crate::space) const REACH: f64 = 1.4;
 
 /// A place where springs may start, and what may stand in front of each of its corners.
 #[derive(Debug, Clone, Copy)]
@@ -69,7 +64,7 @@ impl Shell {
             for &[_, node] in ways {
                 let other = contacts.position(node);
                 let square: f64 = (0..3).map(|d| (own[d] - other[d]).powi(2)).sum();
-                if square < best.0 && square < (REACH * least.max(length(node))).powi(2) {
+                if square < best.0 && square < (SIGHT * least.max(length(node))).powi(2) {
                     best = (square, node);
                 }
             }
@@ -102,7 +97,7 @@ impl Shell {
         self.ways.clear();
         for [a, b] in contacts.exposed_pairs() {
             let particles = [a, b].map(|at| contacts.particle(at));
-            if meet(mesh, particles, [a, b].map(|at| contacts.body(at))) {
+            if mesh.keeps_apart(particles, [a, b].map(|at| contacts.body(at))) {
                 let held = particles.map(|i| mesh.held(i));
                 for (way, _) in [([a, b], held[1]), ([b, a], held[0])].iter().filter(|way| way.1) {
                     put(&mut self.ways, *way);
