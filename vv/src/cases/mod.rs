@@ -71,6 +71,11 @@ impl Level {
             Self::Full => "full",
         }
     }
+
+    /// What it runs of three sizes, the coarsest first.
+    fn first(self, sizes: &[usize; 3]) -> &[usize] {
+        &sizes[..=self as usize]
+    }
 }
 
 /// What the Godunov code made of a case.

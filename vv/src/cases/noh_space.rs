@@ -2,13 +2,11 @@
 
 use whipple_solver::method::Preset;
 use whipple_solver::space::Simulation;
-use whipple_solver::space::method::Method;
 use whipple_solver::space::scene::{Body, Scene, Shape, Side};
-use whipple_solver::units::Units;
 
 use super::figures::{beside_exact, figure, profiles};
 use super::parts::shells::{edge, outward, radius, shells};
-use super::parts::{Columns, gas, mirror, moments, motion, resting};
+use super::parts::{Columns, gas_scene, mirror, moments, motion, resting, zonal};
 use super::{Case, Claim, Claims, Kind, Level, Quantity, Wanted, Weight, default_run, named};
 use crate::exact::Geometry;
 use crate::exact::noh::Noh as Exact;
@@ -22,12 +20,12 @@ pub(super) struct NohSpace;
 
 const ID: &str = "noh-space";
 const GAMMA: f64 = 5.0 / 3.0;
+/// Specific heat.
+const HEAT: f64 = 1.0;
 /// Time at which the shock has come to 0.2.
 const STOP: f64 = 0.6;
 /// Internal energy of the cold gas, over that behind the shock.
 const COLD: f64 = 1e-6;
-/// Stiffness of pyramids against being denser than their cell: that of the gas (decision 0017).
-const ZONAL: f64 = 1.0;
 /// Cells along what is left of a direction without flow.
 const ACROSS: usize = 2;
 /// Radius up to which errors are measured.
@@ -108,16 +106,7 @@ impl Case for NohSpace {
             energy: 0.5 * COLD,
             ..resting("gas", Shape::Box { size }, cells, size.map(|edge| 0.5 * edge))
         };
-        Scene {
-            name: ID.into(),
-            units: Units::None,
-            stop_time: STOP,
-            method: Method { hourglass: ZONAL, ..preset.space() },
-            walls,
-            materials: vec![gas(GAMMA, 1.0)],
-            bodies: vec![body],
-        }
-        .into()
+        gas_scene(ID, STOP, zonal(preset), walls, [GAMMA, HEAT], body).into()
     }
 
     fn measure_space(
@@ -181,14 +170,8 @@ impl Case for NohSpace {
     }
 
     fn runs(&self, level: Level) -> Vec<RunKey> {
-        let mut keys: Vec<RunKey> = VARIANTS.map(|v| default_run(ID, SIZES[0]).variant(v)).into();
-        if level >= Level::Standard {
-            keys.extend(VARIANTS.map(|v| default_run(ID, SIZES[1]).variant(v)));
-        }
-        if level == Level::Full {
-            keys.extend(VARIANTS.map(|v| default_run(ID, SIZES[2]).variant(v)));
-        }
-        keys
+        let sizes = level.first(&SIZES).iter();
+        sizes.flat_map(|&n| VARIANTS.map(|v| default_run(ID, n).variant(v))).collect()
     }
 
     fn claims(&self) -> Vec<Claim> {

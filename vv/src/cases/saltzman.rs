@@ -3,17 +3,16 @@
 use whipple_solver::method::Preset;
 use whipple_solver::space::Simulation;
 use whipple_solver::space::mapping::Mapping;
-use whipple_solver::space::method::Method;
 use whipple_solver::space::output::Particle;
 use whipple_solver::space::scene::{Body, Scene, Shape, Side};
-use whipple_solver::units::Units;
 
-use super::parts::{Columns, gas, mirror, moments, resting};
-use super::{Case, Claim, Claims, Kind, Level, Quantity, Wanted, Weight};
+use super::figures::{curves, figure, histories, over, profiles};
+use super::parts::{Columns, gas_scene, last_fall, mirror, moments, resting, zonal};
+use super::{Case, Claim, Claims, Kind, Level, Quantity, Wanted, Weight, default_run, named};
 use crate::exact::Gas;
 use crate::exact::saltzman::{Passage, Saltzman as Exact};
-use crate::plots::{Axis, Figure, Layer, Panel, Series as Curve};
-use crate::record::{Records, RunKey, Scheme};
+use crate::plots::{Axis, Figure, Layer, Panel};
+use crate::record::{Records, RunKey};
 use crate::run::{Findings, RunError, SpaceDriver};
 use crate::scene::AnyScene;
 use crate::space::picture::{Shot, Shown, onto_the_section, shoot};
@@ -23,6 +22,8 @@ pub(super) struct Saltzman;
 
 const ID: &str = "saltzman";
 const GAMMA: f64 = 5.0 / 3.0;
+/// Specific heat.
+const HEAT: f64 = 1.0;
 const LENGTH: f64 = 1.0;
 const HEIGHT: f64 = 0.1;
 /// Speed of the piston.
@@ -31,8 +32,6 @@ const SPEED: f64 = 1.0;
 const ACROSS: usize = 2;
 /// Internal energy of the cold gas, over that behind the shock.
 const COLD: f64 = 1e-6;
-/// Stiffness of pyramids against being denser than their cell: that of the gas (decision 0017).
-const ZONAL: f64 = 1.0;
 /// Time of the measurement; the shock meets the far wall at 0.75.
 const STOP: f64 = 0.6;
 /// First stop of the run, over its end: the first step knows of no wave yet.
@@ -43,6 +42,7 @@ const ENTRIES: usize = 24;
 const INSIDE: [f64; 2] = [0.2, 0.8];
 /// Strips across the box in each of which the shock is located.
 const STRIPS: usize = 5;
+const SKEWED: &str = "skewed";
 const REGULAR: &str = "regular";
 const VARIANTS: [&str; 2] = ["", REGULAR];
 /// Caption of the picture.
@@ -54,7 +54,7 @@ const ALONG: usize = 10;
 const SIZES: [usize; 3] = [5, 10, 20];
 
 fn default_key(variant: &str, n: usize) -> RunKey {
-    RunKey::new(ID, Scheme::preset(Preset::Default), n).variant(variant)
+    default_run(ID, n).variant(variant)
 }
 
 /// The first passage of the shock.
@@ -103,11 +103,7 @@ fn slices(simulation: &Simulation, width: f64, chosen: impl Fn(f64) -> bool) -> 
 
 /// Where the mean density of slices falls below a level, the farthest from the piston.
 fn front(slices: &[Slice], level: f64) -> f64 {
-    let falls = |w: &&[Slice]| w[0].density >= level && w[1].density < level;
-    slices.windows(2).rfind(falls).map_or(f64::NAN, |w| {
-        let share = (w[0].density - level) / (w[0].density - w[1].density);
-        w[0].place + share * (w[1].place - w[0].place)
-    })
+    last_fall(slices.iter().map(|s| (s.place, s.density)), level).unwrap_or(f64::NAN)
 }
 
 /// What is measured at a time: shock over the exact one, less one; farthest places of it in strips
@@ -194,16 +190,7 @@ impl Case for Saltzman {
             mapping: (variant != REGULAR).then_some(skew),
             ..resting("gas", shape, [ALONG * n, n, ACROSS], size.map(|edge| 0.5 * edge))
         };
-        Scene {
-            name: ID.into(),
-            units: Units::None,
-            stop_time: STOP,
-            method: Method { hourglass: ZONAL, ..preset.space() },
-            walls,
-            materials: vec![gas(GAMMA, 1.0)],
-            bodies: vec![body],
-        }
-        .into()
+        gas_scene(ID, STOP, zonal(preset), walls, [GAMMA, HEAT], body).into()
     }
 
     fn measure_space(
@@ -268,12 +255,7 @@ impl Case for Saltzman {
     }
 
     fn runs(&self, level: Level) -> Vec<RunKey> {
-        let count = match level {
-            Level::Quick => 1,
-            Level::Standard => 2,
-            Level::Full => 3,
-        };
-        let sizes = SIZES[..count].iter();
+        let sizes = level.first(&SIZES).iter();
         sizes.flat_map(|&n| VARIANTS.map(|variant| default_key(variant, n))).collect()
     }
 
@@ -283,7 +265,7 @@ impl Case for Saltzman {
         let shown = Claims::new(ID, Kind::Verification, Weight::Shown, source);
         let mut out = Vec::new();
         for variant in VARIANTS {
-            let name = if variant.is_empty() { "skewed" } else { variant };
+            let name = named(variant, SKEWED);
             for (norm, text, wanted) in [
                 ("dead_elements", "elements that cease to be volumes", Wanted::AtMost(0.0)),
                 (
@@ -320,44 +302,28 @@ impl Case for Saltzman {
     }
 
     fn figures(&self, records: &Records) -> Vec<Figure> {
-        let title = |variant: &'static str| if variant.is_empty() { "skewed" } else { variant };
-        let mut panels = Vec::new();
-        for variant in VARIANTS {
-            let record = records.get(&default_key(variant, SIZES[1]));
-            let Some(profile) = record.and_then(|r| r.profile.as_ref()) else { continue };
+        let runs = VARIANTS.map(|v| (named(v, SKEWED), default_key(v, SIZES[1])));
+        let panels = profiles(records, runs.clone()).into_iter().filter_map(|(title, profile)| {
             let axes = (Axis::linear("place from the piston"), Axis::linear("density"));
             let columns = [("density", "mean"), ("lowest", "lowest"), ("highest", "highest")];
-            let panel = columns.into_iter().fold(
-                Panel::new(title(variant), axes.0, axes.1),
-                |panel, (column, name)| {
-                    panel.with(Curve::line(name, profile.points("place", column)))
-                },
-            );
-            panels.push(panel.with(Layer::exact("exact", profile.points("place", "exact"))));
-        }
-        if panels.is_empty() {
-            return Vec::new();
-        }
+            let lines =
+                columns.map(|(column, name)| (name.into(), profile.points("place", column)));
+            let panel = curves(Panel::new(title, axes.0, axes.1), lines)?;
+            Some(panel.with(Layer::exact("exact", profile.points("place", "exact"))))
+        });
         let caption = "Density over the distance from the piston at t = 0.6 in slices a cell wide: mean by mass, and \
                        the lowest and highest particle; n = 10.";
-        let mut figures = vec![Figure::new("saltzman-density", caption, panels)];
+        let mut figures = figure("saltzman-density", caption, panels);
+        let runs = histories(records, runs);
         let names =
             [("transverse", "largest transverse velocity"), ("shock_bend", "bend of the shock")];
-        let panels = names.map(|(column, label)| {
+        let panels = names.into_iter().filter_map(|(column, label)| {
             let panel = Panel::new("", Axis::linear("time"), Axis::linear(label));
-            VARIANTS.into_iter().fold(panel, |panel, variant| {
-                let record = records.get(&default_key(variant, SIZES[1]));
-                match record.and_then(|r| r.history.as_ref()) {
-                    Some(history) => {
-                        panel.with(Curve::line(title(variant), history.points("time", column)))
-                    }
-                    None => panel,
-                }
-            })
+            curves(panel, over(&runs, "time", column))
         });
         let caption = "What a plane shock has none of, over time, n = 10: velocity along it, and how \
                        far its places in five strips lie apart.";
-        figures.push(Figure::new("saltzman-plane", caption, panels.into()));
+        figures.extend(figure("saltzman-plane", caption, panels));
         figures
     }
 }
