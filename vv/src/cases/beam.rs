@@ -212,6 +212,10 @@ impl Case for Beam {
         &[("frequency_khz", "frequency, kHz")]
     }
 
+    fn errors(&self) -> &'static [&'static str] {
+        &["frequency_error"]
+    }
+
     fn figures(&self, records: &Records) -> Vec<Figure> {
         let Ok(frequency) = exact().and_then(|beam| Ok(beam.timoshenko_free(1)?)) else {
             return Vec::new();

@@ -80,7 +80,8 @@ impl Case for NohSpace {
          cell (`hourglass` 1, decision 0017). Cells on the axis and in the centre end as slivers: the \
          few that die are counted, and their particles have the density of contacts. Density is \
          averaged from 0.3 to 0.8 of the radius of the exact shock, scatter is the root mean square \
-         about that mean over the exact density, L1 is by exact volume to r = 0.35. n counts the cells along the unit of length."
+         about that mean over the exact density, L1 is by exact volume to r = 0.35; the shock is where the \
+         mean density of shells falls below half of its jump, and has no place where it nowhere comes up to that. n counts the cells along the unit of length."
     }
 
     fn source(&self) -> &'static str {
@@ -151,8 +152,10 @@ impl Case for NohSpace {
         findings.enter("density", density);
         findings.enter("density_error", density / state.density - 1.0);
         findings.enter("scatter", scatter / state.density);
-        let found = edge(&shells, |s| s.density, level).unwrap_or(f64::NAN);
-        findings.enter("shock_error", found / shock - 1.0);
+        // A density that never comes to half of its jump has no shock to be placed.
+        if let Some(found) = edge(&shells, |s| s.density, level) {
+            findings.enter("shock_error", found / shock - 1.0);
+        }
         findings.enter("density_l1", misfit / volume);
         findings.enter("velocity_l1", speed / volume);
         findings.enter("dead_elements", solver.failed().1 as f64);
@@ -177,7 +180,6 @@ impl Case for NohSpace {
     fn claims(&self) -> Vec<Claim> {
         let source = "exact solution; tolerances of `references/verification_problems.toml`";
         let must = Claims::new(ID, Kind::Verification, Weight::Must, source);
-        let shown = Claims { weight: Weight::Shown, ..must };
         let aim = Claims { weight: Weight::Aim, ..must };
         let swings = Claims { source: "the tolerance of the mean, of every particle", ..aim };
         let mut out = Vec::new();
@@ -186,8 +188,8 @@ impl Case for NohSpace {
             let within = Wanted::WithinZero;
             let share = if name == PLANAR { 0.01 } else { 0.1 };
             for (claims, text, norm, wanted) in [
-                (shown, "density behind the shock, error", "density_error", within(share)),
-                (shown, "radius of the shock, error", "shock_error", within(0.03)),
+                (aim, "density behind the shock, error", "density_error", within(share)),
+                (aim, "radius of the shock, error", "shock_error", within(0.03)),
                 (swings, "density behind the shock, scatter", "scatter", Wanted::AtMost(share)),
             ] {
                 let found = Quantity::Norm(default_run(ID, SIZES[2]).variant(variant), norm);
@@ -221,13 +223,18 @@ impl Case for NohSpace {
         ]
     }
 
+    fn errors(&self) -> &'static [&'static str] {
+        &["density_error", "shock_error", "density_l1", "velocity_l1"]
+    }
+
     fn figures(&self, records: &Records) -> Vec<Figure> {
         let panels = VARIANTS.iter().filter_map(|variant| {
             let [radius, density] = ["radius", "density"].map(Axis::linear);
             let runs = SIZES.map(|n| (format!("n = {n}"), default_run(ID, n).variant(variant)));
             let panel = Panel::new(named(variant, PLANAR), radius, density);
-            let columns = ["radius", "density", "exact"];
-            beside_exact(panel, &profiles(records, runs), columns, "exact")
+            let exact = exact(geometry(variant)).ok()?;
+            let field = |r: f64| exact.sample(r, STOP).map(|gas| gas.density);
+            beside_exact(panel, &profiles(records, runs), ["radius", "density"], "exact", field)
         });
         let caption = "Density over the distance from plane, axis and centre at t = 0.6, means of thin \
                        shells by mass.";
