@@ -417,9 +417,13 @@ impl GasProblem {
         let profile = |scheme| record(scheme).and_then(|r| Some((scheme, r.profile.as_ref()?)));
         let mut drawn: Vec<(Scheme, &Series)> = schemes.into_iter().filter_map(profile).collect();
         drawn.extend(profile(Scheme::Godunov));
+        if drawn.is_empty() {
+            return None;
+        }
         let setup = (self.setup)(variant).ok()?;
-        let (_, last) = drawn.last()?;
-        let x = extent(&[(String::new(), *last)], "x");
+        let named: Vec<(String, &Series)> =
+            drawn.iter().map(|(s, run)| (s.label(), *run)).collect();
+        let x = extent(&named, "x");
         let panels = FIELDS
             .map(|(name, label, of)| {
                 let exact = |x: f64| (setup.exact)(x, setup.time).map(|gas| of(&gas));

@@ -52,7 +52,7 @@ const PICTURE: &str = "Elements at t = 0.6, coloured by temperature, n = 10. The
                        shock an upright line at 0.2 of length from it, and all cells behind that should be \
                        equal bricks. Here the shock leans as the lattice does that it runs into, farthest along the \
                        lower wall; gas runs along it, so that rows of cells beside both walls are \
-                       drawn out into slivers, and the temperature behind varies by a third.";
+                       drawn out into slivers, and the temperature behind is uneven.";
 /// Cells along the box over those across it: as their edges are.
 const ALONG: usize = 10;
 /// Cells across the box.
@@ -337,7 +337,7 @@ impl Case for Saltzman {
         let runs = histories(records, runs);
         let [time, speed, bend] =
             ["time", "largest velocity along the shock / piston's", "bend of the shock"];
-        let panel = |y| Panel::new("", Axis::linear(time), y);
+        let panel = |y| Panel::new("", Axis::linear(time).range(0.0, STOP), y);
         // At first there is none, and no logarithm of that.
         let speeds = over(&runs, "time", "transverse")
             .map(|(name, points)| (name, points.into_iter().filter(|p| p.1 > 0.0).collect()));
