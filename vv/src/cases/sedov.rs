@@ -140,9 +140,7 @@ impl Case for Sedov {
         }
         let peak = means.iter().map(|s| s.density).fold(0.0, f64::max);
         let mut findings = Findings::default();
-        if let Some(front) = front {
-            findings.enter("shock_error", front / place - 1.0);
-        }
+        findings.enter("shock_error", front.unwrap_or(f64::NAN) / place - 1.0);
         findings.enter("peak_density", peak);
         findings.enter("peak_over_exact", peak / behind.density);
         findings.enter("scatter", moments(&near).1 / behind.density);
