@@ -212,6 +212,10 @@ impl Case for Beam {
         &[("frequency_khz", "frequency, kHz")]
     }
 
+    fn errors(&self) -> &'static [&'static str] {
+        &["frequency_error"]
+    }
+
     fn figures(&self, records: &Records) -> Vec<Figure> {
         let Ok(frequency) = exact().and_then(|beam| Ok(beam.timoshenko_free(1)?)) else {
             return Vec::new();
@@ -225,7 +229,8 @@ impl Case for Beam {
         let axes = (Axis::linear("time × exact frequency"), Axis::linear("deflection, µm"));
         let panel = curves(Panel::new("", axes.0, axes.1), scaled);
         let panel = panel.map(|panel| {
-            [0.5, 1.0].into_iter().fold(panel, |panel, at| panel.with(Layer::vertical(at, "")))
+            let rules = [(0.5, "exact half period"), (1.0, "exact period")];
+            rules.into_iter().fold(panel, |panel, (at, name)| panel.with(Layer::vertical(at, name)))
         });
         let caption = "Deflection of the beam, projected on the shape of its first mode; it should \
                        vanish at the upright lines.";

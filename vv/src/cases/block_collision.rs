@@ -177,6 +177,10 @@ impl Case for BlockCollision {
         ]
     }
 
+    fn errors(&self) -> &'static [&'static str] {
+        &["left_velocity_error", "right_velocity_error", "left_as_vibration_and_heat"]
+    }
+
     fn figures(&self, records: &Records) -> Vec<Figure> {
         let axes = (Axis::linear("time, µs"), Axis::linear("mean velocity of a block / V"));
         let mut panel = Panel::new("", axes.0, axes.1);

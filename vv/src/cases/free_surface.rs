@@ -190,6 +190,10 @@ impl Case for FreeSurface {
         ]
     }
 
+    fn errors(&self) -> &'static [&'static str] {
+        &["velocity_error", "density_error"]
+    }
+
     fn figures(&self, records: &Records) -> Vec<Figure> {
         let panel = |runs: &[(String, &Series)]| {
             let axes = ["time / breakout", "velocity / exact"].map(Axis::linear);

@@ -7,6 +7,7 @@ use whipple_solver::scene::{
 };
 use whipple_solver::units::Units;
 
+use super::figures::{exact_line, extent};
 use super::{
     Case, Claim, Claims, Eulerian, Kind, Level, Quantity, Wanted, Weight, conservation, default_run,
 };
@@ -14,7 +15,7 @@ use crate::exact::Gas;
 use crate::exact::riemann::Riemann;
 use crate::godunov::{self, Domain, Godunov};
 use crate::norms;
-use crate::plots::{Axis, Figure, Layer, Panel, Series as Curve};
+use crate::plots::{Axis, Figure, Panel, Series as Curve};
 use crate::record::{Records, RunKey, Scheme, Series};
 use crate::run::{Driver, Findings, RunError};
 use crate::scene::AnyScene;
@@ -91,6 +92,17 @@ pub(super) const L1_NORMS: &[(&str, &str)] = &[
     ("velocity_l1", "L1 v"),
     ("pressure_l1", "L1 p"),
     ("energy_l1", "L1 u"),
+];
+
+/// A field: its name, its label in figures, and what it is of a state.
+type Field = (&'static str, &'static str, fn(&Gas) -> f64);
+
+/// What is compared and drawn.
+const FIELDS: [Field; 4] = [
+    ("density", "density", |g| g.density),
+    ("velocity", "velocity", |g| g.velocity),
+    ("pressure", "pressure", |g| g.pressure),
+    ("energy", "specific internal energy", Gas::energy),
 ];
 
 /// Both sides of a membrane, with equal particle spacing over the whole.
@@ -212,17 +224,11 @@ impl Setup {
     pub(super) fn compare(&self, time: f64, fields: &Fields) -> Result<Findings, RunError> {
         let exact: Vec<Gas> =
             fields.x.iter().map(|&x| (self.exact)(x, time)).collect::<Result<_, _>>()?;
-        type Field<'a> = (&'static str, &'a [f64], fn(&Gas) -> f64);
-        let columns: [Field<'_>; 4] = [
-            ("density", &fields.density, |g| g.density),
-            ("velocity", &fields.velocity, |g| g.velocity),
-            ("pressure", &fields.pressure, |g| g.pressure),
-            ("energy", &fields.energy, Gas::energy),
-        ];
+        let columns = [&fields.density, &fields.velocity, &fields.pressure, &fields.energy];
         let mut findings = Findings::default();
         let mut profile = Series::default();
         profile.0.insert("x".into(), fields.x.clone());
-        for (name, found, of) in columns {
+        for ((name, _, of), found) in FIELDS.into_iter().zip(columns) {
             let wanted: Vec<f64> = exact.iter().map(of).collect();
             let errors: Vec<f64> = found.iter().zip(&wanted).map(|(f, w)| f - w).collect();
             let l1 = match norms::relative_l1(&errors, &fields.mass, &wanted) {
@@ -234,7 +240,7 @@ impl Setup {
             }?;
             findings.norms.insert(format!("{name}_l1"), l1);
             profile.0.insert(format!("{name}_exact"), wanted);
-            profile.0.insert(name.into(), found.to_vec());
+            profile.0.insert(name.into(), found.clone());
         }
         findings.profile = Some(profile);
         Ok(findings)
@@ -394,6 +400,10 @@ impl Case for GasProblem {
         L1_NORMS
     }
 
+    fn errors(&self) -> &'static [&'static str] {
+        &["density_l1", "velocity_l1", "pressure_l1", "energy_l1"]
+    }
+
     fn figures(&self, records: &Records) -> Vec<Figure> {
         self.variants.iter().filter_map(|v| self.figure(v, records)).collect()
     }
@@ -407,20 +417,24 @@ impl GasProblem {
         let profile = |scheme| record(scheme).and_then(|r| Some((scheme, r.profile.as_ref()?)));
         let mut drawn: Vec<(Scheme, &Series)> = schemes.into_iter().filter_map(profile).collect();
         drawn.extend(profile(Scheme::Godunov));
-        let (_, last) = drawn.last()?;
-        let fields = [("density", "density"), ("velocity", "velocity"), ("pressure", "pressure")];
-        let fields = fields.into_iter().chain([("energy", "specific internal energy")]);
-        let panels = fields
-            .map(|(name, label)| {
+        if drawn.is_empty() {
+            return None;
+        }
+        let setup = (self.setup)(variant).ok()?;
+        let named: Vec<(String, &Series)> =
+            drawn.iter().map(|(s, run)| (s.label(), *run)).collect();
+        let x = extent(&named, "x");
+        let panels = FIELDS
+            .map(|(name, label, of)| {
+                let exact = |x: f64| (setup.exact)(x, setup.time).map(|gas| of(&gas));
                 let mut panel = Panel::new("", Axis::linear("x"), Axis::linear(label));
-                panel = panel
-                    .with(Layer::exact(self.answer, last.points("x", &format!("{name}_exact"))));
+                panel = panel.with(exact_line(self.answer, x, exact));
                 for (scheme, profile) in &drawn {
                     panel = panel.with(curve(*scheme, profile.points("x", name)));
                 }
                 panel
             })
-            .collect();
+            .into();
         let id = if variant.is_empty() { self.id.into() } else { format!("{}-{variant}", self.id) };
         let what = if variant.is_empty() { String::new() } else { format!(" ({variant})") };
         let caption =

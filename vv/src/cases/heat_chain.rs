@@ -151,6 +151,10 @@ impl Case for HeatChain {
         ]
     }
 
+    fn errors(&self) -> &'static [&'static str] {
+        &["rate_error", "temperature_linf"]
+    }
+
     fn figures(&self, records: &Records) -> Vec<Figure> {
         let mut panel = Panel::new("", Axis::linear("x"), Axis::linear("temperature"));
         let runs = Preset::ALL.map(|p| (p.name(), run_of(ID, p, self.default_size())));

@@ -6,14 +6,14 @@ use whipple_solver::scene::{
 };
 use whipple_solver::units::Units;
 
-use super::figures::{curves, figure, histories, over};
+use super::figures::{beside_exact, figure, histories};
 use super::{
     Case, Claim, Claims, Kind, Level, Quantity, Wanted, Weight, both_presets, conservation,
     default_run, paper_run, run_of,
 };
 use crate::exact::waves::{Bar, End, StepLoad};
 use crate::norms;
-use crate::plots::{Axis, Figure, Layer, Panel, Series as Curve};
+use crate::plots::{Axis, Figure, Panel, Series as Curve};
 use crate::record::{Records, RunKey, RunRecord, Series};
 use crate::run::{Driver, Findings, RunError};
 use crate::scene::AnyScene;
@@ -275,6 +275,10 @@ impl Case for Kolsky {
         &[("plateau", "plateau velocity, in/s"), ("overshoot", "overshoot")]
     }
 
+    fn errors(&self) -> &'static [&'static str] {
+        &["velocity_rms"]
+    }
+
     fn figures(&self, records: &Records) -> Vec<Figure> {
         let mut figures = Vec::new();
         for variant in [FIXED, FREE] {
@@ -290,21 +294,22 @@ fn load_transit() -> f64 {
     LENGTH / (BULK / DENSITY).sqrt()
 }
 
-/// Figures 5 and 6 of the paper.
+/// The histories that Figures 5 and 6 of the paper show, for one end.
 fn midpoint(records: &Records, variant: &str) -> Vec<Figure> {
     let panels = DRAWN.iter().zip(["Figure 5", "Figure 6"]).filter_map(|(&n, number)| {
-        let title = format!("{number}: {n} particles");
+        let title = format!("{n} particles: as the paper's {number}");
         let (time, velocity) = (Axis::linear("time, ms"), Axis::linear("midpoint velocity, in/s"));
         let runs = Preset::ALL.map(|p| (p.name(), run_of(ID, p, n).variant(variant)));
         let runs = histories(records, runs);
-        let exact = runs.first()?.1.points("time_ms", "velocity_exact");
-        let panel = Panel::new(title, time, velocity).with(Layer::exact("exact", exact));
-        curves(panel, over(&runs, "time_ms", "velocity"))
+        let load = exact(variant).ok()?;
+        let field = |ms: f64| load.sample(0.5 * LENGTH, 1e-3 * ms).map(|state| state.velocity);
+        let panel = Panel::new(title, time, velocity);
+        beside_exact(panel, &runs, ["time_ms", "velocity"], "exact", field)
     });
     let end = if variant == FREE { "free" } else { "fixed" };
     let caption = format!(
-        "Velocity of the midpoint of the bar, end x = 0 {end}: Figures 5 and 6 of the paper, with \
-         both presets and the exact solution."
+        "Velocity of the midpoint of the bar with a {end} end at x = 0, by both presets. Figures 5 and 6 of \
+         the paper show this history for 51 and 101 particles; it does not say which end they have."
     );
     figure(format!("kolsky-{end}"), &caption, panels)
 }

@@ -145,10 +145,6 @@ impl Case for LongRod {
         ]
     }
 
-    fn tabulates_errors(&self) -> bool {
-        false
-    }
-
     fn extra_tables(&self, records: &Records) -> Vec<Table> {
         tables::all(records)
     }

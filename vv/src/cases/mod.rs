@@ -71,6 +71,11 @@ impl Level {
             Self::Full => "full",
         }
     }
+
+    /// What it runs of three sizes, the coarsest first.
+    fn first(self, sizes: &[usize; 3]) -> &[usize] {
+        &sizes[..=self as usize]
+    }
 }
 
 /// What the Godunov code made of a case.
@@ -161,9 +166,9 @@ pub trait Case: Sync {
     /// The norms that the report tabulates, with their titles.
     fn tabulated(&self) -> &'static [(&'static str, &'static str)];
 
-    /// Whether what is tabulated are errors, whose orders the report fits.
-    fn tabulates_errors(&self) -> bool {
-        true
+    /// Which of what is tabulated are errors, whose orders the report fits.
+    fn errors(&self) -> &'static [&'static str] {
+        &[]
     }
 
     /// Quantities whose own convergence is studied, with their titles: what an exact solution is not
@@ -313,4 +318,32 @@ fn conservation_in_space(case: &'static str, key: &RunKey) -> Vec<Claim> {
         Wanted::AtMost(1e-12),
     ));
     out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_shown_as_a_limit_of_the_paper_s_method_is_run_by_it() {
+        let of_the_paper = |key: &RunKey| key.scheme == Scheme::preset(Preset::Paper);
+        for claim in ALL.iter().flat_map(|case| case.claims()) {
+            let runs = claim.quantity.runs();
+            assert!(
+                claim.weight != Weight::Shown || runs.iter().all(of_the_paper),
+                "{}: {}",
+                claim.case,
+                claim.what
+            );
+        }
+    }
+
+    #[test]
+    fn errors_are_tabulated() {
+        for case in ALL {
+            let tabulated: Vec<&str> = case.tabulated().iter().map(|(name, _)| *name).collect();
+            let strange = case.errors().iter().find(|name| !tabulated.contains(name));
+            assert_eq!(strange, None, "{}", case.id());
+        }
+    }
 }

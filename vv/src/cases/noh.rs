@@ -235,6 +235,22 @@ impl Case for Noh {
         ]
     }
 
+    fn errors(&self) -> &'static [&'static str] {
+        &[
+            "velocity_rms",
+            "temperature_rms",
+            "velocity_rms_phase",
+            "temperature_rms_phase",
+            "velocity_l1",
+            "temperature_l1",
+            "velocity_l1_phase",
+            "temperature_l1_phase",
+            "velocity_l1_window",
+            "wall_heating",
+            "wall_heating_linf",
+        ]
+    }
+
     fn quantities(&self) -> &'static [(&'static str, &'static str)] {
         &[("plateau_density", "density of the shocked gas")]
     }

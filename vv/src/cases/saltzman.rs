@@ -3,17 +3,16 @@
 use whipple_solver::method::Preset;
 use whipple_solver::space::Simulation;
 use whipple_solver::space::mapping::Mapping;
-use whipple_solver::space::method::Method;
 use whipple_solver::space::output::Particle;
 use whipple_solver::space::scene::{Body, Scene, Shape, Side};
-use whipple_solver::units::Units;
 
-use super::parts::{Columns, gas, mirror, moments, resting};
-use super::{Case, Claim, Claims, Kind, Level, Quantity, Wanted, Weight};
+use super::figures::{curves, exact_line, extent, figure, histories, over, profiles};
+use super::parts::{Columns, gas_scene, last_fall, mirror, moments, resting, zonal};
+use super::{Case, Claim, Claims, Kind, Level, Quantity, Wanted, Weight, default_run, named};
 use crate::exact::Gas;
 use crate::exact::saltzman::{Passage, Saltzman as Exact};
-use crate::plots::{Axis, Figure, Layer, Panel, Series as Curve};
-use crate::record::{Records, RunKey, Scheme};
+use crate::plots::{Axis, Figure, Layer, Panel};
+use crate::record::{Records, RunKey};
 use crate::run::{Findings, RunError, SpaceDriver};
 use crate::scene::AnyScene;
 use crate::space::picture::{Shot, Shown, onto_the_section, shoot};
@@ -23,6 +22,8 @@ pub(super) struct Saltzman;
 
 const ID: &str = "saltzman";
 const GAMMA: f64 = 5.0 / 3.0;
+/// Specific heat.
+const HEAT: f64 = 1.0;
 const LENGTH: f64 = 1.0;
 const HEIGHT: f64 = 0.1;
 /// Speed of the piston.
@@ -31,8 +32,6 @@ const SPEED: f64 = 1.0;
 const ACROSS: usize = 2;
 /// Internal energy of the cold gas, over that behind the shock.
 const COLD: f64 = 1e-6;
-/// Stiffness of pyramids against being denser than their cell: that of the gas (decision 0017).
-const ZONAL: f64 = 1.0;
 /// Time of the measurement; the shock meets the far wall at 0.75.
 const STOP: f64 = 0.6;
 /// First stop of the run, over its end: the first step knows of no wave yet.
@@ -43,18 +42,24 @@ const ENTRIES: usize = 24;
 const INSIDE: [f64; 2] = [0.2, 0.8];
 /// Strips across the box in each of which the shock is located.
 const STRIPS: usize = 5;
+/// Velocity along the shock wanted at most, over the piston's.
+const STILL: f64 = 0.05;
+const SKEWED: &str = "skewed";
 const REGULAR: &str = "regular";
 const VARIANTS: [&str; 2] = ["", REGULAR];
 /// Caption of the picture.
-const PICTURE: &str = "Elements at t = 0.6, coloured by temperature, n = 10: gas at rest behind the shock on \
-                       the left, where the piston is, and the skewed lattice ahead of it.";
+const PICTURE: &str = "Elements at t = 0.6, coloured by temperature, n = 10. The piston is the left edge, the exact \
+                       shock an upright line at 0.2 of length from it, and all cells behind that should be \
+                       equal bricks. Here the shock leans as the lattice does that it runs into, farthest along the \
+                       lower wall; gas runs along it, so that rows of cells beside both walls are \
+                       drawn out into slivers, and the temperature behind is uneven.";
 /// Cells along the box over those across it: as their edges are.
 const ALONG: usize = 10;
 /// Cells across the box.
 const SIZES: [usize; 3] = [5, 10, 20];
 
 fn default_key(variant: &str, n: usize) -> RunKey {
-    RunKey::new(ID, Scheme::preset(Preset::Default), n).variant(variant)
+    default_run(ID, n).variant(variant)
 }
 
 /// The first passage of the shock.
@@ -103,11 +108,7 @@ fn slices(simulation: &Simulation, width: f64, chosen: impl Fn(f64) -> bool) -> 
 
 /// Where the mean density of slices falls below a level, the farthest from the piston.
 fn front(slices: &[Slice], level: f64) -> f64 {
-    let falls = |w: &&[Slice]| w[0].density >= level && w[1].density < level;
-    slices.windows(2).rfind(falls).map_or(f64::NAN, |w| {
-        let share = (w[0].density - level) / (w[0].density - w[1].density);
-        w[0].place + share * (w[1].place - w[0].place)
-    })
+    last_fall(slices.iter().map(|s| (s.place, s.density)), level).unwrap_or(f64::NAN)
 }
 
 /// What is measured at a time: shock over the exact one, less one; farthest places of it in strips
@@ -194,16 +195,7 @@ impl Case for Saltzman {
             mapping: (variant != REGULAR).then_some(skew),
             ..resting("gas", shape, [ALONG * n, n, ACROSS], size.map(|edge| 0.5 * edge))
         };
-        Scene {
-            name: ID.into(),
-            units: Units::None,
-            stop_time: STOP,
-            method: Method { hourglass: ZONAL, ..preset.space() },
-            walls,
-            materials: vec![gas(GAMMA, 1.0)],
-            bodies: vec![body],
-        }
-        .into()
+        gas_scene(ID, STOP, zonal(preset), walls, [GAMMA, HEAT], body).into()
     }
 
     fn measure_space(
@@ -233,7 +225,7 @@ impl Case for Saltzman {
         if *key == default_key("", SIZES[1]) {
             driver.photograph("saltzman-lattice", PICTURE, |simulation| {
                 let (title, camera) =
-                    ("Skewed lattice behind the shock".into(), onto_the_section());
+                    ("Saltzman's piston: the skewed lattice".into(), onto_the_section());
                 let shot = Shot { title, camera, section: None, shown: Shown::Temperature(None) };
                 shoot(simulation, scene, &shot)
             })?;
@@ -267,36 +259,37 @@ impl Case for Saltzman {
         Ok(findings)
     }
 
+    fn draws(&self, key: &RunKey) -> bool {
+        key.n >= SIZES[1]
+    }
+
     fn runs(&self, level: Level) -> Vec<RunKey> {
-        let count = match level {
-            Level::Quick => 1,
-            Level::Standard => 2,
-            Level::Full => 3,
-        };
-        let sizes = SIZES[..count].iter();
+        let sizes = level.first(&SIZES).iter();
         sizes.flat_map(|&n| VARIANTS.map(|variant| default_key(variant, n))).collect()
     }
 
     fn claims(&self) -> Vec<Claim> {
         let source = "exact solution; tolerances of `saltzman_piston` in \
                       `references/verification_problems.toml`";
-        let shown = Claims::new(ID, Kind::Verification, Weight::Shown, source);
+        let aim = Claims::new(ID, Kind::Verification, Weight::Aim, source);
         let mut out = Vec::new();
-        for variant in VARIANTS {
-            let name = if variant.is_empty() { "skewed" } else { variant };
+        for (variant, n) in VARIANTS.into_iter().flat_map(|v| [(v, SIZES[1]), (v, SIZES[2])]) {
+            let name = named(variant, SKEWED);
             for (norm, text, wanted) in [
                 ("dead_elements", "elements that cease to be volumes", Wanted::AtMost(0.0)),
                 (
                     "largest_transverse",
                     "largest velocity along the shock, over the piston's",
-                    Wanted::AtMost(0.05),
+                    Wanted::AtMost(STILL),
                 ),
                 ("density_error", "density behind the shock, error", Wanted::WithinZero(0.03)),
                 ("pressure_error", "pressure behind the shock, error", Wanted::WithinZero(0.03)),
             ] {
-                let quantity = Quantity::Norm(default_key(variant, SIZES[1]), norm);
-                out.push(shown.claim(format!("{name}: {text}"), quantity, wanted));
+                let quantity = Quantity::Norm(default_key(variant, n), norm);
+                out.push(aim.claim(format!("{name}, n = {n}: {text}"), quantity, wanted));
             }
+        }
+        for variant in VARIANTS {
             out.extend(super::conservation_in_space(ID, &default_key(variant, SIZES[0])));
         }
         out
@@ -315,49 +308,45 @@ impl Case for Saltzman {
         ]
     }
 
-    fn tabulates_errors(&self) -> bool {
-        false
+    fn errors(&self) -> &'static [&'static str] {
+        &["density_l1"]
     }
 
     fn figures(&self, records: &Records) -> Vec<Figure> {
-        let title = |variant: &'static str| if variant.is_empty() { "skewed" } else { variant };
-        let mut panels = Vec::new();
-        for variant in VARIANTS {
-            let record = records.get(&default_key(variant, SIZES[1]));
-            let Some(profile) = record.and_then(|r| r.profile.as_ref()) else { continue };
-            let axes = (Axis::linear("place from the piston"), Axis::linear("density"));
+        let Ok(passage) = passage() else { return Vec::new() };
+        let runs = VARIANTS.into_iter().flat_map(|v| [(v, SIZES[1]), (v, SIZES[2])]);
+        let runs: Vec<(String, RunKey)> = runs
+            .map(|(v, n)| (format!("{}, n = {n}", named(v, SKEWED)), default_key(v, n)))
+            .collect();
+        let drawn = profiles(records, runs.clone());
+        let shock = way(&passage, STOP);
+        let exact = |x: f64| if x <= shock { passage.behind } else { passage.ahead }.density;
+        let panels = drawn.iter().filter_map(|(title, profile)| {
+            let place = Axis::linear("distance from the piston");
+            let density = Axis::log("density").range(0.8, 1.1 * extent(&drawn, "highest").1);
             let columns = [("density", "mean"), ("lowest", "lowest"), ("highest", "highest")];
-            let panel = columns.into_iter().fold(
-                Panel::new(title(variant), axes.0, axes.1),
-                |panel, (column, name)| {
-                    panel.with(Curve::line(name, profile.points("place", column)))
-                },
-            );
-            panels.push(panel.with(Layer::exact("exact", profile.points("place", "exact"))));
-        }
-        if panels.is_empty() {
-            return Vec::new();
-        }
-        let caption = "Density over the distance from the piston at t = 0.6 in slices a cell wide: mean by mass, and \
-                       the lowest and highest particle; n = 10.";
-        let mut figures = vec![Figure::new("saltzman-density", caption, panels)];
-        let names =
-            [("transverse", "largest transverse velocity"), ("shock_bend", "bend of the shock")];
-        let panels = names.map(|(column, label)| {
-            let panel = Panel::new("", Axis::linear("time"), Axis::linear(label));
-            VARIANTS.into_iter().fold(panel, |panel, variant| {
-                let record = records.get(&default_key(variant, SIZES[1]));
-                match record.and_then(|r| r.history.as_ref()) {
-                    Some(history) => {
-                        panel.with(Curve::line(title(variant), history.points("time", column)))
-                    }
-                    None => panel,
-                }
-            })
+            let lines =
+                columns.map(|(column, name)| (name.into(), profile.points("place", column)));
+            let panel = curves(Panel::new(title, place, density), lines)?;
+            let (from, to) = extent(&drawn, "place");
+            Some(panel.with(exact_line("exact", (from, to), |x| Ok::<_, RunError>(exact(x)))))
         });
-        let caption = "What a plane shock has none of, over time, n = 10: velocity along it, and how \
+        let caption = "Density over the distance from the piston at t = 0.6 in slices a cell wide: mean by mass, and \
+                       the lowest and highest particle.";
+        let mut figures = figure("saltzman-density", caption, panels);
+        let runs = histories(records, runs);
+        let [time, speed, bend] =
+            ["time", "largest velocity along the shock / piston's", "bend of the shock"];
+        let panel = |y| Panel::new("", Axis::linear(time).range(0.0, STOP), y);
+        // At first there is none, and no logarithm of that.
+        let speeds = over(&runs, "time", "transverse")
+            .map(|(name, points)| (name, points.into_iter().filter(|p| p.1 > 0.0).collect()));
+        let speeds = curves(panel(Axis::log(speed)), speeds)
+            .map(|panel| panel.with(Layer::horizontal(STILL, "wanted at most")));
+        let bends = curves(panel(Axis::linear(bend)), over(&runs, "time", "shock_bend"));
+        let caption = "What a plane shock has none of, over time: velocity along it, and how \
                        far its places in five strips lie apart.";
-        figures.push(Figure::new("saltzman-plane", caption, panels.into()));
+        figures.extend(figure("saltzman-plane", caption, speeds.into_iter().chain(bends)));
         figures
     }
 }

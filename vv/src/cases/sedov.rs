@@ -4,14 +4,13 @@ use whipple_solver::method::Preset;
 use whipple_solver::space::method::Method;
 use whipple_solver::space::output::Particle;
 use whipple_solver::space::scene::{Body, Scene, Shape, Side};
-use whipple_solver::units::Units;
 
 use super::figures::{beside_exact, figure, profiles};
 use super::parts::shells::{radius, shells};
-use super::parts::{Columns, gas, mirror, moments, motion, resting};
+use super::parts::{Columns, gas_scene, mirror, moments, motion, resting, zonal};
 use super::{Case, Claim, Claims, Kind, Level, Quantity, Wanted, Weight, default_run};
-use crate::exact::Geometry;
 use crate::exact::sedov::Sedov as Exact;
+use crate::exact::{Gas, Geometry};
 use crate::plots::{Axis, Figure, Panel};
 use crate::record::{Records, RunKey};
 use crate::run::{Findings, RunError, SpaceDriver};
@@ -34,8 +33,6 @@ const COLD: f64 = 1e-6;
 const HEAT: f64 = 1.0;
 /// Coefficient of the viscous pressure of pyramids, which cold gas needs (decision 0013).
 const VOLUME_VISCOSITY: f64 = 2.0;
-/// Stiffness of pyramids against being denser than their cell: that of the gas (decision 0017).
-const ZONAL: f64 = 1.0;
 /// First entry of the run, over its end: the first step knows of no pressure gradient yet.
 const FIRST: f64 = 1e-6;
 /// Radii between which the pressure of the hot inside is compared, as in Noh's problem.
@@ -86,16 +83,9 @@ impl Case for Sedov {
             energy: COLD,
             ..resting("gas", Shape::Box { size: [EDGE; 3] }, [n; 3], [0.5 * EDGE; 3])
         };
-        Scene {
-            name: ID.into(),
-            units: Units::None,
-            stop_time: STOP,
-            method: Method { visc_volume: VOLUME_VISCOSITY, hourglass: ZONAL, ..preset.space() },
-            walls: (0..3).map(|axis| mirror(axis, 0.0, Side::Above)).collect(),
-            materials: vec![gas(GAMMA, HEAT)],
-            bodies: vec![body],
-        }
-        .into()
+        let method = Method { visc_volume: VOLUME_VISCOSITY, ..zonal(preset) };
+        let walls = (0..3).map(|axis| mirror(axis, 0.0, Side::Above)).collect();
+        gas_scene(ID, STOP, method, walls, [GAMMA, HEAT], body).into()
     }
 
     fn measure_space(
@@ -183,26 +173,20 @@ impl Case for Sedov {
     }
 
     fn runs(&self, level: Level) -> Vec<RunKey> {
-        let count = match level {
-            Level::Quick => 1,
-            Level::Standard => 2,
-            Level::Full => 3,
-        };
-        SIZES[..count].iter().map(|&n| default_run(ID, n)).collect()
+        level.first(&SIZES).iter().map(|&n| default_run(ID, n)).collect()
     }
 
     fn claims(&self) -> Vec<Claim> {
         let source = "exact solution; 2 % at 64 cells by `references/verification_problems.toml`";
-        let shown = Claims::new(ID, Kind::Verification, Weight::Shown, source);
-        let mut out = vec![shown.claim(
+        let aim = Claims::new(ID, Kind::Verification, Weight::Aim, source);
+        let mut out = vec![aim.claim(
             "radius of the shock, error",
             Quantity::Norm(default_run(ID, SIZES[2]), "shock_error"),
             Wanted::WithinZero(0.02),
         )];
         let swing = Claims {
-            weight: Weight::Aim,
             source: "10 % as on the plateaus of Noh's problem, `references/verification_problems.toml`",
-            ..shown
+            ..aim
         };
         let order = Claims {
             source: "order of the L1 error of Noh's problem, `references/verification_problems.toml`",
@@ -236,12 +220,19 @@ impl Case for Sedov {
         ]
     }
 
+    fn errors(&self) -> &'static [&'static str] {
+        &["shock_error", "density_l1", "pressure_of_shells", "pressure_within_shells"]
+    }
+
     fn figures(&self, records: &Records) -> Vec<Figure> {
         let runs = profiles(records, SIZES.map(|n| (format!("n = {n}"), default_run(ID, n))));
-        let fields = [("density", "exact_density"), ("pressure", "exact_pressure")];
-        let panels = fields.into_iter().filter_map(|(field, exact)| {
-            let panel = Panel::new("", Axis::linear("radius"), Axis::linear(field));
-            beside_exact(panel, &runs, ["radius", field, exact], "exact")
+        let Ok(exact) = exact() else { return Vec::new() };
+        type Field = (&'static str, fn(&Gas) -> f64);
+        let fields: [Field; 2] = [("density", |gas| gas.density), ("pressure", |gas| gas.pressure)];
+        let panels = fields.into_iter().filter_map(|(name, of)| {
+            let panel = Panel::new("", Axis::linear("radius"), Axis::linear(name));
+            let field = |r: f64| exact.sample(r, STOP).map(|gas| of(&gas));
+            beside_exact(panel, &runs, ["radius", name], "exact", field)
         });
         let caption =
             "Density and pressure over the radius at t = 1, means of thin shells by mass.";

@@ -242,22 +242,23 @@ impl Case for Spall {
         ]
     }
 
+    fn errors(&self) -> &'static [&'static str] {
+        &["time_error"]
+    }
+
     fn figures(&self, records: &Records) -> Vec<Figure> {
         let axes = (Axis::linear("time, µs"), Axis::linear("rear face / speed of the flyer"));
         let runs = SIZES.map(|n| (format!("n = {n}"), default_run(ID, n)));
         let holds = default_run(ID, SIZES[1]).variant(HOLDS);
         let holds = [(format!("holds, n = {}", SIZES[1]), holds)];
         let runs = histories(records, runs.into_iter().chain(holds));
-        let panel = beside_exact(
-            Panel::new("", axes.0, axes.1),
-            &runs,
-            ["time", "velocity", "holds"],
-            "acoustic, if it holds",
-        );
-        let panel = panel.map(|panel| {
-            let fall = exact().and_then(|exact| Ok(exact.pull_back(STRENGTH)?));
-            let rule = |fall| Layer::horizontal(1.0 - fall / SPEED, "pull-back of the strength");
-            if let Ok(fall) = fall { panel.with(rule(fall)) } else { panel }
+        let Ok(exact) = exact() else { return Vec::new() };
+        let field = |t: f64| exact.sample(TARGET, t).map(|state| state.velocity / SPEED);
+        let panel = Panel::new("", axes.0, axes.1);
+        let name = "acoustic, if it holds";
+        let panel = beside_exact(panel, &runs, ["time", "velocity"], name, field);
+        let panel = panel.zip(exact.pull_back(STRENGTH).ok()).map(|(panel, fall)| {
+            panel.with(Layer::horizontal(1.0 - fall / SPEED, "pull-back of the strength"))
         });
         figure("spall-rear-face", "Velocity of the rear face of the target.", panel)
     }

@@ -6,13 +6,13 @@ use whipple_solver::method::Preset;
 use whipple_solver::space::scene::{Body, Material, Scene, Shape, Strength};
 use whipple_solver::units::Units;
 
-use super::figures::{curves, figure, histories, over};
+use super::figures::{curves, envelope, figure, histories, over};
 use super::parts::metals::COPPER;
 use super::parts::{control, history, modes, resting, times};
 use super::{
     Case, Claim, Claims, Kind, Level, Quantity, Wanted, Weight, default_run, named, paper_run,
 };
-use crate::plots::{Axis, Figure, Panel};
+use crate::plots::{Axis, Figure, Panel, Point};
 use crate::record::{Records, RunKey};
 use crate::run::{Findings, RunError, SpaceDriver};
 use crate::scene::AnyScene;
@@ -193,13 +193,15 @@ impl Case for SpinningBlock {
         ];
         let runs = histories(records, runs);
         let panels = names.into_iter().filter_map(|(column, label)| {
-            let sizes = over(&runs, "turn", column).map(|(name, points)| {
-                (name, points.into_iter().map(|p| (p.0, p.1.abs())).collect())
+            let crests = over(&runs, "turn", column).map(|(name, points)| {
+                let sizes: Vec<Point> = points.into_iter().map(|p| (p.0, p.1.abs())).collect();
+                (name, envelope(&sizes, ENTRIES / 10))
             });
-            curves(Panel::new("", Axis::linear("turn"), Axis::log(label)), sizes)
+            curves(Panel::new("", Axis::linear("turn"), Axis::log(label)), crests)
         });
         let caption = "A turn of the block: size of the change of the energy, and energy in modes that no \
-                       strain resists.";
+                       strain resists. All swing; each line is the largest within a tenth of a turn to \
+                       either side. n = 10 where none is named.";
         figure("spinning-block-energy", caption, panels)
     }
 }

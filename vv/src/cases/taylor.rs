@@ -11,8 +11,8 @@ use super::figures::{curves, figure, histories, over, profiles};
 use super::parts::discs::Discs;
 use super::parts::{Columns, control, moments, resting, times};
 use super::{Case, Claim, Claims, Kind, Level, Quantity, Wanted, Weight, run_of};
-use crate::plots::{Along, Axis, Figure, Layer, Panel};
-use crate::record::{Records, RunKey};
+use crate::plots::{Along, Axis, Dash, Figure, Layer, Panel, Series as Curve};
+use crate::record::{Records, RunKey, Series};
 use crate::run::{Findings, RunError, SpaceDriver};
 use crate::scene::AnyScene;
 
@@ -58,10 +58,11 @@ pub(super) const COPPER_ROD: Taylor = Taylor {
     title: "Taylor impact of copper",
     about: "A rod of OFHC copper, 7.62 mm by 25.4 mm, hits a rigid, frictionless wall at 190 m/s. \
             Johnson-Cook strength; no failure. n counts the cells across. Length: from the lowest to \
-            the highest node of a live element, the mean over the last quarter of the run. Radii: of \
-            the disc with the area of the faces in one plane of the lattice, which does not see how \
-            the rim of the circle is stepped; faces of dead elements stay as large as they were last \
-            seen live. The reach is the farthest node of a live element from the axis. The final sizes \
+            the highest node of a live element, the mean over the last quarter of the run. The foot is \
+            the lowest plane of the lattice, its radius that of the disc with the area of the faces in \
+            it, which does not see how the rim of the circle is stepped: faces of elements that are dead \
+            count as large as they were last seen live. The foot of live elements is that without the dead, \
+            and the reach the farthest node of a live element from the axis. The final sizes \
             of the experiment, 0.638 of the length and 1.78 of the diameter, were read in a \
             transcription of digitised figures, not in the reports themselves: nothing required rests \
             on them. Variants have half and twice every coefficient of the viscosity; `hourglass-on` \
@@ -83,9 +84,9 @@ pub(super) const STEEL_ROD: Taylor = Taylor {
     title: "Taylor impact of 42CrMo4 steel",
     about: "A rod of 42CrMo4 steel, 6.4 mm by 32.4 mm, hits a rigid, frictionless wall at 287 m/s: a \
             benchmark of codes in Lagrangian coordinates, run to 80 us. Johnson-Cook strength; no failure. \
-            n counts the cells across. Length and radii are those of live elements, as in \
-            `taylor-copper`: elements of the rim of the foot that are pressed flat cease to be volumes; \
-            their number is given. The benchmark has no thermal pressure \
+            n counts the cells across. Length, foot and reach are as in `taylor-copper`: elements of the \
+            rim of the foot that are pressed flat cease to be volumes, their number is given, and the radius \
+            that is judged counts them; that of the elements that are left alone stands beside it as a goal. The benchmark has no thermal pressure \
             and a linear elastic law: K = E/(3 (1 - 2 nu)), no Grueneisen coefficient, and the slope of \
             the Hugoniot of steel, as the solver takes none below 0.85; its heat fraction of 0.9 enters \
             as the specific heat over 0.9.",
@@ -172,6 +173,16 @@ fn varied(method: Method, variant: &str) -> Method {
         visc_expansion: factor * method.visc_expansion,
         ..method
     }
+}
+
+/// The panel with the foot of live elements alone, where that is another.
+fn with_the_live(panel: Panel, runs: &[(String, &Series)]) -> Panel {
+    let feet = runs.iter().enumerate().filter_map(|(hue, (name, history))| {
+        let left = history.points("time", "foot_left");
+        let line = Curve::line(format!("{name}, live"), left.clone());
+        (left != history.points("time", "foot")).then(|| line.styled(Dash::Dotted, hue))
+    });
+    feet.fold(panel, Panel::with)
 }
 
 impl Taylor {
@@ -336,6 +347,15 @@ impl Case for Taylor {
                 ));
             }
         }
+        // What a reader would measure on the elements that are left; of copper none dies.
+        let left = Claims { weight: Weight::Aim, ..claims };
+        for n in SIZES.into_iter().filter(|_| self.id == STEEL) {
+            out.push(left.claim(
+                format!("foot radius of live elements alone in mm, n = {n}, `default`"),
+                Quantity::Norm(self.default_key(n), "foot_left_mm"),
+                Wanted::Near(MM * self.wanted[1], self.share),
+            ));
+        }
         out.extend(super::conservation_in_space(self.id, &plain()));
         out
     }
@@ -345,7 +365,7 @@ impl Case for Taylor {
             ("length_mm", "length, mm"),
             ("length_ratio", "length / initial"),
             ("shortest_mm", "shortest, mm"),
-            ("foot_radius_mm", "foot radius, mm"),
+            ("foot_radius_mm", "foot radius, dead elements counted, mm"),
             ("foot_left_mm", "foot of live elements, mm"),
             ("foot_reach_mm", "reach, mm"),
             ("bulge_radius_mm", "radius at 0.2 L, mm"),
@@ -367,6 +387,7 @@ impl Case for Taylor {
         let measured = [("length", "length, mm"), ("foot", "foot radius, mm")];
         let panels = measured.into_iter().zip(self.wanted).filter_map(|((name, label), wanted)| {
             let panel = curves(panel("time, µs", label), over(&histories, "time", name))?;
+            let panel = if name == "foot" { with_the_live(panel, &histories) } else { panel };
             let wanted = MM * wanted;
             Some(panel.with(Layer::Span {
                 along: Along::Horizontal,
@@ -375,9 +396,14 @@ impl Case for Taylor {
             }))
         });
         let profiles = profiles(records, runs);
-        let shape = curves(panel("height, mm", "radius, mm"), over(&profiles, "height", "radius"));
-        let caption = "Length, foot radius, and final shape: radii of the discs with the area of the \
-                       sections.";
-        figure(format!("{}-shape", self.id), caption, panels.chain(shape))
+        let outlines = over(&profiles, "radius", "height").map(|(name, side)| {
+            let left = side.iter().map(|p| (-p.0, p.1));
+            (name, left.chain(side.iter().rev().copied()).collect())
+        });
+        let shape = curves(panel("distance from the axis, mm", "height, mm"), outlines);
+        let caption = "Length, foot radius (dotted: of live elements alone, where others are dead), and \
+                       outline at the end: radii of the discs with the area of the sections, dead \
+                       elements counted.";
+        figure(format!("{}-shape", self.id), caption, panels.chain(shape.map(Panel::equal)))
     }
 }

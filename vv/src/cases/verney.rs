@@ -10,13 +10,14 @@ use whipple_solver::space::scene::{
 };
 use whipple_solver::units::Units;
 
+use super::figures::{curves, exact_line, extent, figure, histories, over};
 use super::parts::shells::radius;
 use super::parts::{Columns, control, mirror, moments, motion, resting};
-use super::{Case, Claim, Claims, Kind, Level, Quantity, Wanted, Weight};
+use super::{Case, Claim, Claims, Kind, Level, Quantity, Wanted, Weight, default_run};
 use crate::exact::Geometry;
 use crate::exact::verney::{Collapse, Shell};
-use crate::plots::{Axis, Figure, Layer, Panel, Series as Curve};
-use crate::record::{Records, RunKey, Scheme};
+use crate::plots::{Axis, Figure, Panel};
+use crate::record::{Records, RunKey};
 use crate::run::{Findings, RunError, SpaceDriver};
 use crate::scene::AnyScene;
 use crate::space::picture::{Shot, Shown, onto_the_section, shoot};
@@ -46,14 +47,11 @@ const LATE: f64 = 1.2;
 const ENTRIES: usize = 120;
 /// Caption of the picture.
 const PICTURE: &str = "Elements of the quarter of the tube at the end of the run, seen along its axis and \
-                       coloured by temperature; n = 8.";
+                       coloured by temperature; n = 8. The inner surface should be a circle: it has \
+                       buckled, and waves of it reach into the wall, which is hotter where they are.";
 /// Cells through the wall of the tube.
 const SIZES: [usize; 3] = [4, 8, 16];
 const VARIANTS: [&str; 3] = ["", control::HOURGLASS, control::CENTRING];
-
-fn default_key(n: usize) -> RunKey {
-    RunKey::new(ID, Scheme::preset(Preset::Default), n)
-}
 
 /// Names of the columns of the history that are read off the state.
 const COLUMNS: [&str; 6] = ["inner", "outer", "roundness", "kinetic", "plastic", "elastic"];
@@ -204,7 +202,7 @@ impl Case for Verney {
             history.row([("time", time), ("exact", exact.inner_radius(time)?)]);
             history.read(&COLUMNS, &now);
         }
-        if *key == default_key(SIZES[1]) {
+        if *key == default_run(ID, SIZES[1]) {
             driver.photograph("verney-end", PICTURE, |simulation| {
                 let (title, camera) = ("The tube after its collapse".into(), onto_the_section());
                 let shot = Shot { title, camera, section: None, shown: Shown::Temperature(None) };
@@ -248,13 +246,10 @@ impl Case for Verney {
     }
 
     fn runs(&self, level: Level) -> Vec<RunKey> {
-        let mut keys = vec![default_key(SIZES[0])];
+        let mut keys: Vec<RunKey> =
+            level.first(&SIZES).iter().map(|&n| default_run(ID, n)).collect();
         if level >= Level::Standard {
-            keys.push(default_key(SIZES[1]));
-            keys.extend(control::runs(&default_key(SIZES[1])));
-        }
-        if level == Level::Full {
-            keys.push(default_key(SIZES[2]));
+            keys.extend(control::runs(&default_run(ID, SIZES[1])));
         }
         keys
     }
@@ -265,12 +260,12 @@ impl Case for Verney {
         let must = Claims::new(ID, Kind::Verification, Weight::Must, source);
         let mut out = vec![must.claim(
             "inner radius at rest, error in cm",
-            Quantity::Norm(default_key(SIZES[2]), "rest_error_cm"),
+            Quantity::Norm(default_run(ID, SIZES[2]), "rest_error_cm"),
             Wanted::WithinZero(0.1),
         )];
         let answers = [("rest_cm", "inner radius at rest")];
-        out.extend(control::claims(ID, &default_key(SIZES[1]), &answers));
-        out.extend(super::conservation_in_space(ID, &default_key(SIZES[0])));
+        out.extend(control::claims(ID, &default_run(ID, SIZES[1]), &answers));
+        out.extend(super::conservation_in_space(ID, &default_run(ID, SIZES[0])));
         out
     }
 
@@ -288,29 +283,22 @@ impl Case for Verney {
         ]
     }
 
-    fn tabulates_errors(&self) -> bool {
-        false
-    }
-
     fn figures(&self, records: &Records) -> Vec<Figure> {
-        let mut way = Panel::new("", Axis::linear("time, µs"), Axis::linear("inner radius, cm"));
-        let mut error =
-            Panel::new("", Axis::linear("time, µs"), Axis::linear("less the exact one, cm"));
-        let mut exact = None;
-        for n in SIZES {
-            let record = records.get(&default_key(n));
-            let Some(history) = record.and_then(|r| r.history.as_ref()) else { continue };
-            let found = history.points("time", "inner");
-            let wanted = history.points("time", "exact");
+        let runs = histories(records, SIZES.map(|n| (format!("n = {n}"), default_run(ID, n))));
+        let panel = |label: &str| Panel::new("", Axis::linear("time, µs"), Axis::linear(label));
+        let apart = runs.iter().map(|(name, history)| {
+            let [found, wanted] = ["inner", "exact"].map(|column| history.points("time", column));
             let apart = found.iter().zip(&wanted).map(|(a, b)| (a.0, a.1 - b.1)).collect();
-            way = way.with(Curve::line(format!("n = {n}"), found));
-            error = error.with(Curve::line(format!("n = {n}"), apart));
-            exact = Some(wanted);
-        }
-        let Some(exact) = exact else { return Vec::new() };
-        let way = way.with(Layer::exact("exact", exact));
+            (name.clone(), apart)
+        });
+        let error = curves(panel("less the exact one, cm"), apart);
+        let way = curves(panel("inner radius, cm"), over(&runs, "time", "inner"));
+        let exact = exact().ok().map(|exact| {
+            exact_line("exact", extent(&runs, "time"), |time| exact.inner_radius(time))
+        });
+        let way = way.zip(exact).map(|(way, exact)| way.with(exact));
         let caption = "Mean inner radius of the tube over time, and its difference from the exact one, that of \
                        a rigid, perfectly plastic shell.";
-        vec![Figure::new("verney-radius", caption, vec![way, error])]
+        figure("verney-radius", caption, way.into_iter().chain(error))
     }
 }

@@ -38,9 +38,7 @@ pub(super) fn section(
         blocks.push(Block::Paragraph("Runs that ended in a numerical failure:".into()));
         blocks.push(Block::List(failures));
     }
-    if case.tabulates_errors() {
-        blocks.extend(orders_table(case, &runs).map(Block::Table));
-    }
+    blocks.extend(orders_table(case, &runs).map(Block::Table));
     blocks.extend(grid_table(case, &runs).map(Block::Table));
 
     let figures = case.figures(records);
@@ -102,7 +100,7 @@ fn norms_table(case: &dyn Case, runs: &[&RunRecord]) -> Table {
         let failed = matches!(r.outcome, Outcome::Failed { .. });
         for (k, (name, _)) in case.tabulated().iter().enumerate() {
             row.push(match (r.norms.get(*name), &r.outcome) {
-                (Some(&value), _) => Cell::number(value, 4),
+                (Some(&value), _) if !value.is_nan() => Cell::number(value, 4),
                 (None, Outcome::Failed { kind, .. }) if k == 0 => format!("failed: {kind}").into(),
                 _ if failed => "".into(),
                 _ => "–".into(),
@@ -110,7 +108,8 @@ fn norms_table(case: &dyn Case, runs: &[&RunRecord]) -> Table {
         }
         row
     });
-    let what = if case.tabulates_errors() { "Errors" } else { "Results" };
+    let error = |(name, _): &(&str, &str)| case.errors().contains(name);
+    let what = if case.tabulated().iter().all(error) { "Errors" } else { "Results" };
     Table {
         id: format!("{}-norms", case.id()),
         caption: format!("{what}: {}.", case.title()),
@@ -191,15 +190,23 @@ fn grid_table(case: &dyn Case, runs: &[&RunRecord]) -> Option<Table> {
     })
 }
 
-/// Orders of every norm and scheme that has three sizes or more.
+/// Errors below this are round-off, which has no order.
+const ROUND_OFF: f64 = 1e-10;
+
+/// Orders of every error above round-off, for schemes that have three sizes or more.
 fn orders_table(case: &dyn Case, runs: &[&RunRecord]) -> Option<Table> {
     let mut rows = Vec::new();
     for (scheme, variant, members) in groups(runs) {
-        for (name, title) in case.tabulated() {
+        for (name, title) in
+            case.tabulated().iter().filter(|(name, _)| case.errors().contains(name))
+        {
+            let levels = levels(&members, name);
+            if levels.iter().all(|level| level.value.abs() < ROUND_OFF) {
+                continue;
+            }
             let Some(fit) = order(&members, name) else {
                 continue;
             };
-            let levels = levels(&members, name);
             let pairwise = convergence::pairwise_orders(&levels).unwrap_or_default();
             let pairwise: Vec<String> = pairwise.into_iter().map(|p| sig(p, 3)).collect();
             let (low, high) = fit.interval;

@@ -21,7 +21,7 @@ pub(super) fn panel(canvas: &Canvas, plot: &mut Plot, slots: &Slots) -> Drawn {
     plot.slopes.iter().try_for_each(|slope| outline(canvas, plot, slope))?;
     for layer in layers {
         if let Layer::Series(s) = layer {
-            series(canvas, plot, s, slots.of(&s.name).unwrap_or(0))?;
+            series(canvas, plot, s, slots.looks(s))?;
         }
     }
     for layer in layers {

@@ -108,7 +108,8 @@ impl<'a> Layout<'a> {
 /// A panel before its frame is known.
 struct Draft<'a> {
     panel: &'a Panel,
-    ranges: ((f64, f64), (f64, f64)),
+    size: Point,
+    ranges: (Point, Point),
     ticks: (Ticks, Ticks),
     slopes: Vec<Slope>,
     skipped: usize,
@@ -116,7 +117,7 @@ struct Draft<'a> {
 }
 
 impl<'a> Draft<'a> {
-    fn new(panel: &'a Panel, (width, height): Point) -> Self {
+    fn new(panel: &'a Panel, size: Point) -> Self {
         let slopes = Slope::all(panel);
         let mut values = (Vec::new(), Vec::new());
         let mut skipped = 0;
@@ -148,11 +149,8 @@ impl<'a> Draft<'a> {
         if panel.x.range.is_none() && least >= 0.0 && ranges.0.0 < 0.0 {
             ranges.0.0 = 0.0;
         }
-        let ticks = (
-            axes::ticks(panel.x.scale, ranges.0, (width / 70.0) as usize),
-            axes::ticks(panel.y.scale, ranges.1, (height / 48.0) as usize),
-        );
-        Self { panel, ranges, ticks, slopes, skipped, empty }
+        let ticks = ticks(panel, ranges, size);
+        Self { panel, size, ranges, ticks, slopes, skipped, empty }
     }
 
     /// Room for the labels of the vertical axis.
@@ -167,7 +165,11 @@ impl<'a> Draft<'a> {
         !self.panel.title.is_empty() || self.ticks.1.factor.is_some() || self.skipped > 0
     }
 
-    fn finish(self, frame: Frame, left: f64) -> Plot<'a> {
+    fn finish(mut self, frame: Frame, left: f64) -> Plot<'a> {
+        if self.panel.equal {
+            self.ranges = equalised(self.ranges, frame);
+            self.ticks = ticks(self.panel, self.ranges, self.size);
+        }
         let map = (
             Mapping::new(self.panel.x.scale, self.ranges.0, (frame.left, frame.right)),
             Mapping::new(self.panel.y.scale, self.ranges.1, (frame.bottom, frame.top)),
@@ -182,6 +184,25 @@ impl<'a> Draft<'a> {
         let Self { panel, ticks, slopes, skipped, empty, .. } = self;
         Plot { panel, map, ticks, frame, left, slopes, skipped, empty, legend: None, obstacles }
     }
+}
+
+/// Ticks of both axes of a panel of a size.
+fn ticks(panel: &Panel, ranges: (Point, Point), (width, height): Point) -> (Ticks, Ticks) {
+    (
+        axes::ticks(panel.x.scale, ranges.0, (width / 70.0) as usize),
+        axes::ticks(panel.y.scale, ranges.1, (height / 48.0) as usize),
+    )
+}
+
+/// Ranges of which one is widened about its middle, so that a unit is as long on either axis.
+fn equalised((x, y): (Point, Point), frame: Frame) -> (Point, Point) {
+    let (width, height) = (frame.right - frame.left, frame.bottom - frame.top);
+    let unit = ((x.1 - x.0) / width).max((y.1 - y.0) / height);
+    let widened = |range: Point, length: f64| {
+        let (middle, half) = (0.5 * (range.0 + range.1), 0.5 * unit * length);
+        (middle - half, middle + half)
+    };
+    (widened(x, width), widened(y, height))
 }
 
 /// A tick label of the vertical axis.

@@ -43,6 +43,11 @@ impl<'a> Slots<'a> {
     pub(super) fn ink(&self, name: &str) -> Ink {
         self.of(name).map_or(SHADE, style::colour)
     }
+
+    /// Where the looks of a series stand in the palette.
+    pub(super) fn looks(&self, series: &Series) -> usize {
+        series.hue.or_else(|| self.of(&series.name)).unwrap_or(0)
+    }
 }
 
 /// A named layer in a legend.
@@ -65,7 +70,7 @@ impl Entry<'_> {
         let line = [(x, y), (x + SAMPLE, y)];
         match self.layer {
             Layer::Series(series) => {
-                let slot = slots.of(&series.name).unwrap_or(0);
+                let slot = slots.looks(series);
                 if let Some(pen) = stroke(series, slot) {
                     canvas.line(&line, pen)?;
                 }
@@ -157,7 +162,7 @@ pub(super) fn place(
     Ok(obstacles.freest(candidates).filter(|place| obstacles.hits(*place) == 0))
 }
 
-/// Draws a legend in a free place, on paper that hides the grid.
+/// Draws a legend in a free place, on paper that hides what lies below.
 pub(super) fn draw_in(
     canvas: &Canvas,
     entries: &[Entry],
@@ -165,7 +170,7 @@ pub(super) fn draw_in(
     place: Frame,
 ) -> Result<(), PlotError> {
     let Frame { left, top, right, bottom } = place;
-    canvas.fill(&[(left, top), (right, top), (right, bottom), (left, bottom)], PAPER, 0.88)?;
+    canvas.fill(&[(left, top), (right, top), (right, bottom), (left, bottom)], PAPER, 1.0)?;
     let rows = (0..).map(|i| top + PAD - 2.0 + ROW * (f64::from(i) + 0.5));
     entries.iter().zip(rows).try_for_each(|(e, y)| e.draw(canvas, slots, (left + PAD, y)))
 }

@@ -38,6 +38,8 @@ pub struct Panel {
     pub x: Axis,
     /// Vertical axis.
     pub y: Axis,
+    /// Whether a unit is as long across as upwards: for shapes, on linear axes.
+    pub equal: bool,
     /// What is drawn, in legend order.
     pub layers: Vec<Layer>,
 }
@@ -45,7 +47,14 @@ pub struct Panel {
 impl Panel {
     /// An empty panel.
     pub fn new(title: impl Into<String>, x: Axis, y: Axis) -> Self {
-        Self { title: title.into(), x, y, layers: Vec::new() }
+        Self { title: title.into(), x, y, equal: false, layers: Vec::new() }
+    }
+
+    /// The panel with equal scales; one of its ranges is widened for it.
+    #[must_use]
+    pub fn equal(mut self) -> Self {
+        self.equal = true;
+        self
     }
 
     /// The panel with one more layer.
@@ -209,6 +218,8 @@ pub struct Series {
     pub line: Option<Dash>,
     /// The marker at the points, if any.
     pub marker: Option<Marker>,
+    /// Place in the palette, if it is not that of its name: for series that belong together.
+    pub hue: Option<usize>,
 }
 
 impl Series {
@@ -234,8 +245,15 @@ impl Series {
         self
     }
 
+    /// The series with a dash and a place in the palette of their own.
+    #[must_use]
+    pub fn styled(mut self, dash: Dash, hue: usize) -> Self {
+        (self.line, self.hue) = (Some(dash), Some(hue));
+        self
+    }
+
     fn new(name: String, points: Vec<Point>, line: Option<Dash>, marker: Option<Marker>) -> Self {
-        Self { name, points, errors: Vec::new(), line, marker }
+        Self { name, points, errors: Vec::new(), line, marker, hue: None }
     }
 }
 

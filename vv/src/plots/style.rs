@@ -27,20 +27,20 @@ pub(super) const GRID: Ink = Ink(0xE4_E7_EB);
 /// Neutral bands and strips.
 pub(super) const SHADE: Ink = Ink(0x9A_A1_AB);
 
-/// Okabe and Ito's colours; their yellow is darkened and their black (kept for exact solutions)
-/// replaced by a grey, so that every one of them reads on white.
+/// Okabe and Ito's colours; their yellow and purple are darkened and their black (kept for exact
+/// solutions) replaced by a grey, so that every one of them reads on white.
 const SERIES: [Ink; MAX_SERIES] = [
     Ink(0x00_72_B2),
     Ink(0xD5_5E_00),
     Ink(0x00_9E_73),
-    Ink(0xCC_79_A7),
+    Ink(0xB0_48_82),
     Ink(0xE6_9F_00),
     Ink(0x56_B4_E9),
     Ink(0x8F_7A_00),
     Ink(0x5B_5F_66),
 ];
 
-const DASHES: [&[f64]; 4] = [&[], &[8.0, 4.0], &[8.0, 3.0, 1.6, 3.0], &[1.8, 2.8]];
+const DASHES: [&[f64]; 4] = [&[], &[8.0, 4.0], &[8.0, 3.0, 1.6, 3.0], &[2.6, 2.4]];
 
 const MARKERS: [Marker; MAX_SERIES] = [
     Marker::Circle,

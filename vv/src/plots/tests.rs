@@ -101,3 +101,27 @@ fn contradictions_are_errors() {
     assert!(matches!(svg_to_png(&svg, 1e9), Err(PlotError::PictureSize { .. })));
     assert!(matches!(svg_to_png(&svg, f32::NAN), Err(PlotError::PictureSize { .. })));
 }
+
+#[test]
+fn equal_scales_make_squares_of_squares() {
+    let square = vec![(0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0), (0.0, 0.0)];
+    let panel = Panel::new("", Axis::linear("x"), Axis::linear("y"));
+    let panel = panel.with(Series::line("s", square.clone())).equal();
+    let figure = figure(panel);
+    let layout = layout::Layout::new(&figure).unwrap();
+    let corners: Vec<Point> =
+        guides::pixels(&square, layout.plots[0].map).into_iter().flatten().collect();
+    let (across, up) = (corners[1].0 - corners[0].0, corners[1].1 - corners[2].1);
+    assert!(across > 100.0 && (across - up).abs() < 1e-6, "{across} {up}");
+}
+
+#[test]
+fn a_series_may_have_the_colour_of_another() {
+    let line = |name: &str| Series::line(name, vec![(0.0, 0.0), (1.0, 1.0)]);
+    let panel =
+        |b: Series| Panel::new("", Axis::linear("x"), Axis::linear("y")).with(line("a")).with(b);
+    let second = format!("#{:06X}", THEME[7].1);
+    assert!(render_svg(&figure(panel(line("b")))).unwrap().contains(&second));
+    let alike = panel(line("b").styled(Dash::Dashed, 0));
+    assert!(!render_svg(&figure(alike)).unwrap().contains(&second));
+}

@@ -132,7 +132,11 @@ pub fn shoot(
             map: ColourMap::Heat,
         }),
     };
-    let unit = scene.units.label(Dimension::Length).to_owned();
+    let unit = match scene.units.label(Dimension::Length) {
+        "" => "units of length",
+        unit => unit,
+    };
+    let unit = unit.to_owned();
     let light = Picture {
         section: shot.section,
         title: shot.title.clone(),
@@ -152,6 +156,24 @@ pub fn shoot(
 
 /// The time of a state, as the picture says it.
 fn time(time: f64, units: Units) -> String {
-    let rounded = (time * 1e4).round() / 1e4;
+    // Four digits, but all before the point.
+    let digits = 3 - time.abs().max(1e-300).log10().floor().clamp(-300.0, 3.0) as i32;
+    let scale = 10f64.powi(digits);
+    let rounded = (time * scale).round() / scale;
     format!("t = {rounded} {}", units.label(Dimension::Time)).trim_end().to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_have_four_digits_and_all_before_the_point() {
+        let said = |t: f64| time(t, Units::CmGUsMbar);
+        assert_eq!(said(167.1981), "t = 167.2 µs");
+        assert_eq!(said(0.0), "t = 0 µs");
+        assert_eq!(said(0.012_345_6), "t = 0.01235 µs");
+        assert_eq!(said(12_345.6), "t = 12346 µs");
+        assert_eq!(time(0.6, Units::None), "t = 0.6");
+    }
 }

@@ -5,15 +5,19 @@ use whipple_solver::method::Preset;
 use super::key;
 use super::problem::SIZES;
 use super::published::{LENGTH, VELOCITY};
-use crate::plots::{Axis, Figure, Layer, Panel, Series as Curve};
+use crate::plots::{Axis, Dash, Figure, Layer, MAX_SERIES, Panel, Series as Curve};
 use crate::record::{Records, Series};
 
-/// Runs whose histories are shown, with their names.
-fn shown(records: &Records) -> Vec<(String, &Series)> {
-    let all = [Preset::Default, Preset::Paper]
-        .into_iter()
-        .flat_map(|preset| SIZES.map(|n| (format!("{}, n = {n}", preset.name()), key(preset, n))));
-    all.filter_map(|(name, key)| Some((name, records.get(&key)?.history.as_ref()?))).collect()
+/// Runs whose histories are shown, drawn by a dash for each preset and a colour for each size.
+fn shown(records: &Records) -> Vec<(Curve, &Series)> {
+    let presets = [(Preset::Default, Dash::Solid), (Preset::Paper, Dash::Dashed)];
+    let all = presets.into_iter().flat_map(|(preset, dash)| {
+        SIZES.into_iter().enumerate().map(move |(hue, n)| {
+            let name = format!("{}, n = {n}", preset.name());
+            (Curve::line(name, Vec::new()).styled(dash, hue), key(preset, n))
+        })
+    });
+    all.filter_map(|(curve, key)| Some((curve, records.get(&key)?.history.as_ref()?))).collect()
 }
 
 /// Length and velocity over time.
@@ -25,8 +29,8 @@ pub(super) fn histories(records: &Records) -> Option<Figure> {
     let [coarse, _, fine] = LENGTH.table_5;
     let panel = |column: &str, label: &str, rules: &[(f64, &str)]| {
         let mut panel = Panel::new("", Axis::linear("time, µs"), Axis::linear(label));
-        for (name, history) in &runs {
-            panel = panel.with(Curve::line(name.clone(), history.points("time", column)));
+        for (curve, history) in &runs {
+            panel = panel.with(Curve { points: history.points("time", column), ..curve.clone() });
         }
         for (at, name) in rules {
             panel = panel.with(Layer::horizontal(*at, *name));
@@ -34,14 +38,15 @@ pub(super) fn histories(records: &Records) -> Option<Figure> {
         panel
     };
     let lengths =
-        [(LENGTH.measured, "experiment"), (coarse, "paper, coarse"), (fine, "paper, fine")];
-    let velocities = [(VELOCITY.measured, "experiment"), (VELOCITY.table_5[0], "paper")];
+        [(LENGTH.measured, "experiment"), (coarse, "Table 5, coarse"), (fine, "Table 5, fine")];
+    let velocities = [(VELOCITY.measured, "experiment"), (VELOCITY.table_5[0], "Table 5")];
     let panels = vec![
         panel("length", "residual length, cm", &lengths),
         panel("velocity", "residual velocity, km/s", &velocities),
     ];
     let caption = "What is left of the rod: length and velocity of the largest connected set of live \
-                   elements.";
+                   elements. Solid: `default`, dashed: `paper`; a colour for each size. Level lines: the experiment, \
+                   and Table 5 of the paper.";
     Some(Figure::new("long-rod-residual", caption, panels))
 }
 
@@ -51,11 +56,13 @@ pub(super) fn energies(records: &Records) -> Option<Figure> {
     let history = record.history.as_ref()?;
     let mut panel = Panel::new("", Axis::linear("time, µs"), Axis::log("energy, kJ"));
     for kind in ["kinetic", "internal", "shear", "tension", "residual"] {
-        let points = history.points("time", kind).into_iter().map(|p| (p.0, p.1.abs())).collect();
-        panel = panel.with(Curve::line(kind, points));
+        let sizes = history.points("time", kind).into_iter().map(|p| (p.0, p.1.abs()));
+        // There is none of some kinds before the impact, and no logarithm of that.
+        panel = panel.with(Curve::line(kind, sizes.filter(|p| p.1 > 0.0).collect()));
     }
-    let failed = Panel::new("", Axis::linear("time, µs"), Axis::linear("failed elements"))
-        .with(Curve::line("failed elements", history.points("time", "failed")));
+    let failed = Panel::new("", Axis::linear("time, µs"), Axis::linear("failed elements"));
+    let count = Curve::line("failed elements", history.points("time", "failed"));
+    let failed = failed.with(count.styled(Dash::Solid, MAX_SERIES - 1));
     let caption = "Energy of rod and plate by kind, and elements that have failed; n = 5, `default`. \
                    The residual is the size of the work on elements that is neither stored nor heat.";
     Some(Figure::new("long-rod-energy", caption, vec![panel, failed]))

@@ -13,6 +13,8 @@ const TEMPERATURES: (f64, f64) = (300.0, 1723.0);
 
 /// Share of the loose particles beyond either end of each axis that may lie outside a picture.
 const OUTSIDE: f64 = 0.01;
+/// The same at the end, when debris has spread far.
+const SPREAD: f64 = 0.08;
 
 /// A picture of the state at some time.
 struct Wish {
@@ -21,6 +23,7 @@ struct Wish {
     title: &'static str,
     caption: &'static str,
     section: bool,
+    outside: f64,
 }
 
 const WISHES: [Wish; 4] = [
@@ -30,6 +33,7 @@ const WISHES: [Wish; 4] = [
         title: "Elements before the impact",
         caption: "Elements of rod and plate before the impact (the paper's Figure 7); n = 5, `default`.",
         section: false,
+        outside: OUTSIDE,
     },
     Wish {
         time: 20.0,
@@ -40,6 +44,7 @@ const WISHES: [Wish; 4] = [
                   ends where the tungsten alloy melts; a few far particles lie outside. n = 5, \
                   `default`.",
         section: true,
+        outside: OUTSIDE,
     },
     Wish {
         time: 40.0,
@@ -47,14 +52,16 @@ const WISHES: [Wish; 4] = [
         title: "Section through the axis of the rod",
         caption: "The same at 40 µs (the paper's Figure 10).",
         section: true,
+        outside: OUTSIDE,
     },
     Wish {
         time: 100.0,
         id: "long-rod-end",
         title: "Elements and particles after the perforation",
         caption: "Elements and particles that no element holds any more, at 100 µs (the paper's Figure \
-                  8). A few far particles lie outside. n = 5, `default`.",
+                  8). Debris farther from rod and plate lies outside: up to 8 % of it beyond each side. n = 5, `default`.",
         section: false,
+        outside: SPREAD,
     },
 ];
 
@@ -69,7 +76,7 @@ pub(super) fn take(driver: &mut SpaceDriver<'_>, scene: &Scene, time: f64) -> Re
             (from_the_side(), None, Shown::Body)
         };
         // Before the impact there are no far particles.
-        camera.frame = (time > 0.0).then(|| frame(simulation, OUTSIDE));
+        camera.frame = (time > 0.0).then(|| frame(simulation, wish.outside));
         shoot(simulation, scene, &Shot { title: wish.title.into(), camera, section, shown })
     })
 }

@@ -12,12 +12,16 @@ pub(super) mod shells;
 
 use std::collections::BTreeMap;
 
+use whipple_solver::method::Preset;
 use whipple_solver::space::Simulation;
 use whipple_solver::space::ledger::Balance;
+use whipple_solver::space::method::Method;
 use whipple_solver::space::scene::{
-    Body, EosData, Failure, Hold, Material, Shape, Side, Turn, Wall,
+    Body, EosData, Failure, Hold, Material, Scene, Shape, Side, Turn, Wall,
 };
+use whipple_solver::units::Units;
 
+use crate::plots::Point;
 use crate::record::Series;
 use crate::run::{RunError, SpaceDriver};
 
@@ -61,11 +65,46 @@ pub(super) fn gas(adiabatic_index: f64, c_v: f64) -> Material {
     }
 }
 
+/// The choices of a preset for gas: its pyramids have the stiffness of the gas against being denser than
+/// their cell (decision 0017).
+pub(super) fn zonal(preset: Preset) -> Method {
+    Method { hourglass: 1.0, ..preset.space() }
+}
+
+/// A body of an ideal gas, given by its adiabatic index and specific heat, in no units.
+pub(super) fn gas_scene(
+    name: &str,
+    stop_time: f64,
+    method: Method,
+    walls: Vec<Wall>,
+    [adiabatic_index, c_v]: [f64; 2],
+    body: Body,
+) -> Scene {
+    Scene {
+        name: name.into(),
+        units: Units::None,
+        stop_time,
+        method,
+        walls,
+        materials: vec![gas(adiabatic_index, c_v)],
+        bodies: vec![body],
+    }
+}
+
 /// Mean and root mean square about it.
 pub(super) fn moments(values: &[f64]) -> (f64, f64) {
     let n = values.len() as f64;
     let mean = values.iter().sum::<f64>() / n;
     (mean, (values.iter().map(|v| (v - mean) * (v - mean)).sum::<f64>() / n).sqrt())
+}
+
+/// Where a curve falls below a level for the last time, between its points.
+pub(super) fn last_fall(curve: impl Iterator<Item = Point>, level: f64) -> Option<f64> {
+    let points: Vec<Point> = curve.collect();
+    let (a, b) =
+        points.windows(2).map(|w| (w[0], w[1])).rfind(|(a, b)| a.1 >= level && b.1 < level)?;
+    let share = (a.1 - level) / (a.1 - b.1);
+    Some(a.0 + share * (b.0 - a.0))
 }
 
 /// Equally spaced times from 0 to the end of a run.

@@ -83,12 +83,7 @@ pub(in crate::cases) fn front(
     quantity: impl Fn(&Plane) -> f64,
     level: f64,
 ) -> Option<f64> {
-    let (a, b) = layers
-        .windows(2)
-        .map(|w| (w[0], w[1]))
-        .rfind(|(a, b)| quantity(a) >= level && quantity(b) < level)?;
-    let share = (quantity(&a) - level) / (quantity(&a) - quantity(&b));
-    Some(a.place + share * (b.place - a.place))
+    super::last_fall(layers.iter().map(|l| (l.place, quantity(l))), level)
 }
 
 /// Mean of a quantity over the planes between two distances from the face; NaN if there is none.

@@ -66,12 +66,7 @@ pub(in crate::cases) fn edge(
     quantity: impl Fn(&Shell) -> f64,
     level: f64,
 ) -> Option<f64> {
-    let (a, b) = shells
-        .windows(2)
-        .map(|w| (w[0], w[1]))
-        .rfind(|(a, b)| quantity(a) >= level && quantity(b) < level)?;
-    let share = (quantity(&a) - level) / (quantity(&a) - quantity(&b));
-    Some(a.radius + share * (b.radius - a.radius))
+    super::last_fall(shells.iter().map(|s| (s.radius, quantity(s))), level)
 }
 
 #[cfg(test)]
