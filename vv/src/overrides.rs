@@ -88,6 +88,9 @@ fn apply_one(scene: &AnyScene, text: &str) -> Result<AnyScene, OverrideError> {
             ("unknown variant", "unknown choice"),
             ("expected f64", "expected a number"),
             ("expected usize", "expected a whole number"),
+            ("expected a sequence", "expected a list, such as [1, 2]"),
+            ("expected an array of length 3", "expected a list of three, such as [1, 2, 3]"),
+            ("expected string or map", "expected a word, or a table such as { steps = 20 }"),
         ];
         bad(words.iter().fold(inner, |text, (from, to)| text.replace(from, to)))
     })
