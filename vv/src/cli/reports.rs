@@ -7,9 +7,7 @@ use std::time::Duration;
 use super::progress::{Outlook, Progress};
 use super::run::find_all;
 use super::sizes::expect;
-use super::{
-    CLAIM_FAILED, Failure, ReferenceArgs, ReportArgs, VvArgs, pictures, print, say,
-};
+use super::{CLAIM_FAILED, Failure, ReferenceArgs, ReportArgs, VvArgs, pictures, print, say};
 use crate::cases::{ALL, Case, Level, woodward_colella};
 use crate::claims::{Status, Verdict, Weight};
 use crate::document;

@@ -78,7 +78,10 @@ fn in_space(key: &str, scene: &space::Scene) -> Vec<Need> {
             "with viscosity=limited heat flows where elements carry the pressure, with density=hybrid alone",
         )],
         "contact_tolerance" | "contact_reach" => {
-            vec![(!kernel, "it belongs to the contact rule (35), which density=kernel does without")]
+            vec![(
+                !kernel,
+                "it belongs to the contact rule (35), which density=kernel does without",
+            )]
         }
         "kernel_support" => vec![(kernel, KERNEL)],
         "yield_norm" => {

@@ -190,7 +190,10 @@ fn pictures_are_in_the_page_and_beside_it() {
     // One that is gone from the report goes from the folder.
     write(&report(), &figures(), folder.path(), Pictures::Beside).unwrap();
     assert!(!folder.path().join("figures/rod-dark.png").exists());
-    assert!(matches!(html(&shown, &figures(), Pictures::Beside), Err(ReportError::MissingFigure(_))));
+    assert!(matches!(
+        html(&shown, &figures(), Pictures::Beside),
+        Err(ReportError::MissingFigure(_))
+    ));
     shown.sections[0].blocks.push(picture("rod"));
     assert!(matches!(html(&shown, &drawings, Pictures::Beside), Err(ReportError::Duplicate(_))));
 }
@@ -210,7 +213,8 @@ fn refusals_name_path_and_cause() {
 #[cfg(target_os = "linux")]
 #[test]
 fn a_read_only_file_system_refuses() {
-    let error = write(&report(), &figures(), "/proc/whipple".as_ref(), Pictures::Beside).unwrap_err();
+    let error =
+        write(&report(), &figures(), "/proc/whipple".as_ref(), Pictures::Beside).unwrap_err();
     assert!(error.to_string().starts_with("cannot create the folder `/proc/whipple"), "{error}");
 }
 

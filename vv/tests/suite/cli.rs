@@ -224,6 +224,9 @@ fn list_shows_a_case_and_the_keys() {
     let (values, _) = key(&keys, "materials.0.failure.spall");
     assert_eq!(values, ["materials.0.failure.spall", "0.0088", "0.0088", "Mbar"]);
     assert!(key(&keys, "release").1.ends_with("One of: steps, crossings."));
+    let flat = keys.split_whitespace().collect::<Vec<_>>().join(" ");
+    let idle = "collapsing pyramids; zero for none. Changes nothing under `paper`: it acts where";
+    assert!(flat.contains(idle), "{keys}");
 }
 
 /// `run` shows what is wanted beside its numbers, and judges only what is claimed.

@@ -82,9 +82,8 @@ fn cases_that_were_not_run_are_not_counted() {
     let named = page.lines().find(|line| line.contains("Not run, so that")).expect("their names");
     assert!(named.contains("long-rod") && !named.contains("heat-chain"), "{named}");
     let cases = ["heat-chain", "uniform-collapse"].map(crate::common::case);
-    let must = |claim: &&whipple_vv::claims::Claim| {
-        claim.weight == whipple_vv::claims::Weight::Must
-    };
+    let must =
+        |claim: &&whipple_vv::claims::Claim| claim.weight == whipple_vv::claims::Weight::Must;
     let claims: usize = cases.iter().map(|case| case.claims().iter().filter(must).count()).sum();
     assert!(page.contains(&format!(" of {claims} required claims hold")), "{claims}");
     let again = said(folder.path(), &["report", "--out", "r"]);
