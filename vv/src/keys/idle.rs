@@ -112,11 +112,11 @@ mod tests {
         ("noh", Preset::Default, "", 10, &["conduction=none"]),
         ("noh", Preset::Paper, "", 10, &["visc_linear=0", "heat_coeff=0", "heating=pair"]),
         ("kolsky", Preset::Default, "", 11, &[]),
-        ("planar-impact", Preset::Default, "", 16, &[]),
+        ("planar-impact", Preset::Default, "", 16, &["stop_time=1"]),
         ("planar-impact", Preset::Paper, "", 16, &["stop_time=1"]),
         ("planar-impact", Preset::Default, "", 16, &["density=kernel", "stop_time=1"]),
         ("noh-space", Preset::Default, "", 6, &["stop_time=0.1"]),
-        ("beam", Preset::Default, "", 4, &["stop_time=2"]),
+        ("beam", Preset::Default, "", 4, &["stop_time=0.5"]),
     ];
 
     fn scene(of: usize) -> AnyScene {
