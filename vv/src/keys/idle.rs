@@ -176,6 +176,7 @@ mod tests {
             said.map(|(name, why)| format!("{name}: {why}\n")).collect::<String>()
         };
         insta::assert_snapshot!(all(3), @r"
+        heat_coeff: conduction is none
         kernel_support: it belongs to density=kernel
         sound_speed: an elastic solid has one speed of sound
         ");
