@@ -116,7 +116,7 @@ mod tests {
         ("planar-impact", Preset::Paper, "", 16, &["stop_time=1"]),
         ("planar-impact", Preset::Default, "", 16, &["density=kernel", "stop_time=1"]),
         ("noh-space", Preset::Default, "", 6, &["stop_time=0.1"]),
-        ("beam", Preset::Default, "", 4, &["stop_time=0.5"]),
+        ("beam", Preset::Default, "", 4, &["stop_time=2"]),
     ];
 
     fn scene(of: usize) -> AnyScene {
