@@ -18,6 +18,14 @@ impl SceneError {
     pub(crate) fn new(key: impl Into<String>, value: impl std::fmt::Display, wanted: &str) -> Self {
         Self { key: key.into(), value: value.to_string(), wanted: wanted.to_owned() }
     }
+
+    /// Checks a coefficient that may be zero but not negative, and has a largest value for a reason.
+    pub(crate) fn coefficient(key: &str, value: f64, (most, why): (f64, &str)) -> Result<(), Self> {
+        if (0.0..=most).contains(&value) {
+            return Ok(());
+        }
+        Err(Self::new(key, value, &format!("it must be from 0 to {most}: beyond, {why}")))
+    }
 }
 
 /// A numerical failure, found in the step that makes it.

@@ -107,6 +107,14 @@ pub struct Method {
 /// Steepness of the limiter (decision 0006).
 const LIMITER: f64 = 12.0;
 
+/// Largest coefficient of a viscosity or a conduction. At 1 it stops what closes within about the time
+/// in which sound crosses a cell; fronts spread over about so many cells, and steps shrink by as much.
+pub(crate) const STRONGEST: f64 = 100.0;
+
+/// Why there is a largest one.
+pub(crate) const STRONGEST_WHY: &str =
+    "fronts spread over so many cells, and time steps shrink by as much";
+
 /// A named set of choices.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]

@@ -6,7 +6,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::error::SceneError;
-use crate::method::{Conduction, Density, Method};
+use crate::method::{Conduction, Density, Method, STRONGEST, STRONGEST_WHY};
 use crate::units::Units;
 
 /// Largest number of particles that a scene may ask for.
@@ -407,11 +407,15 @@ impl Scene {
 
 impl Method {
     fn validate(&self) -> Result<(), SceneError> {
-        not_negative("method.visc_linear", self.visc_linear)?;
-        not_negative("method.visc_quad", self.visc_quad)?;
-        not_negative("method.visc_expansion", self.visc_expansion)?;
+        for (key, value) in [
+            ("method.visc_linear", self.visc_linear),
+            ("method.visc_quad", self.visc_quad),
+            ("method.visc_expansion", self.visc_expansion),
+            ("method.heat_coeff", self.heat_coeff),
+        ] {
+            SceneError::coefficient(key, value, (STRONGEST, STRONGEST_WHY))?;
+        }
         positive("method.limiter", self.limiter)?;
-        not_negative("method.heat_coeff", self.heat_coeff)?;
         if !(self.cfl > 0.0 && self.cfl <= 1.0) {
             return Err(SceneError::new("method.cfl", self.cfl, "it must be in (0, 1]"));
         }

@@ -18,11 +18,8 @@ use crate::method::Integrator;
 use crate::physics::Physics;
 use crate::scene::Scene;
 use crate::sweep::Sweep;
-use crate::timestep::{Decided, Limiter, Vote};
+use crate::timestep::{Decided, Limiter, SMALLEST_STEP, Vote};
 use crate::viscosity::ViscousLaw;
-
-/// Share of the stop time below which a voted time step counts as collapsed.
-const SMALLEST_STEP: f64 = 1e-12;
 
 /// Share of the mean specific energy by which round-off may push cold material below its floor.
 const COLD: f64 = 1e-9;

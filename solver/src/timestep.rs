@@ -2,6 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
+/// Share of the stop time below which a time step counts as collapsed: nobody waits for the end of a run
+/// of a billion steps.
+pub(crate) const SMALLEST_STEP: f64 = 1e-9;
+
 /// What can limit a time step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]

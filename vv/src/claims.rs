@@ -49,7 +49,7 @@ pub enum Weight {
     Must,
     /// A goal beyond what is required.
     Aim,
-    /// A known limit of the paper's method, shown as such.
+    /// A known limit of the preset that it names, shown as such.
     Shown,
 }
 

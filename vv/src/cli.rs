@@ -8,6 +8,7 @@ use clap::{Parser, Subcommand, ValueEnum};
 use whipple_solver::method::{Density, Preset};
 
 use crate::cases::Level;
+use crate::report::Pictures;
 use numbers::{SIZES, THREADS, whole};
 use times::{SimulatedTime, wall_time};
 
@@ -172,6 +173,10 @@ struct VvArgs {
     /// Folder of the report
     #[arg(long, value_name = "DIR", default_value = "reports")]
     out: PathBuf,
+    /// Put the pictures into index.html, to send it around as one file; else it shows those in
+    /// figures/
+    #[arg(long)]
+    single_file: bool,
 }
 
 #[derive(Debug, clap::Args)]
@@ -182,6 +187,15 @@ struct ReportArgs {
     /// Write nothing: compare with the report that is there, exit 1 if it differs
     #[arg(long)]
     check: bool,
+    /// Put the pictures into index.html, to send it around as one file; else it shows those in
+    /// figures/
+    #[arg(long)]
+    single_file: bool,
+}
+
+/// Where the page has its pictures.
+fn pictures(single_file: bool) -> Pictures {
+    if single_file { Pictures::Within } else { Pictures::Beside }
 }
 
 #[derive(Debug, clap::Args)]

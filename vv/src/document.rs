@@ -3,30 +3,32 @@
 //! A pure function of the records: nothing is run here, and no clock is read.
 
 mod case;
+mod deviations;
 mod front;
 
-use crate::cases;
+use crate::cases::{self, Case};
 use crate::claims::Verdict;
 use crate::plots::Figure;
 use crate::record::Records;
 use crate::report::{Report, Section};
+use crate::suite::has_run;
 
 /// Composes the report and its figures.
 #[must_use]
 pub fn compose(records: &Records, verdicts: &[Verdict]) -> (Report, Vec<Figure>) {
     let mut figures = Vec::new();
-    let mut sections = vec![front::summary(verdicts), front::reading()];
-    for case in cases::ALL {
-        if records.of_case(case.id()).next().is_some() {
-            let (section, drawn) = case::section(case, records, verdicts);
-            sections.push(section);
-            figures.extend(drawn);
-        }
+    let (ran, not_run): (Vec<&dyn Case>, Vec<&dyn Case>) =
+        cases::ALL.iter().partition(|case| has_run(**case, records));
+    let mut sections = vec![front::summary(verdicts, &not_run), front::reading()];
+    for case in ran {
+        let (section, drawn) = case::section(case, records, verdicts);
+        sections.push(section);
+        figures.extend(drawn);
     }
     sections.extend([
         front::conservation(records),
         front::cost(records),
-        front::deviations(),
+        deviations::section(),
         front::provenance(records),
     ]);
     let report = Report {
@@ -35,7 +37,7 @@ pub fn compose(records: &Records, verdicts: &[Verdict]) -> (Report, Vec<Figure>)
             "The kernel-free hybrid particle-finite-element method in one and three dimensions, \
                    judged against exact solutions and the paper"
                 .into(),
-        summary: front::verdict(verdicts),
+        summary: front::verdict(verdicts, &not_run),
         sections: sections.into_iter().filter(has_content).collect(),
     };
     (report, figures)

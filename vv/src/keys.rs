@@ -1,6 +1,8 @@
 //! What `--set` can change: keys and values from scenes as they are written down, meanings and choices
 //! from the documentation of the solver's own data. Nothing is said twice.
 
+mod idle;
+
 use std::collections::BTreeMap;
 
 use serde_json::Value;
@@ -8,6 +10,8 @@ use whipple_solver::method::Preset;
 use whipple_solver::units::{Dimension, Units};
 
 use crate::scene::AnyScene;
+
+pub use idle::idle;
 
 /// Sources of the data of a scene along a line.
 const LINE: [&str; 2] =

@@ -70,13 +70,25 @@ fn apply_one(scene: &AnyScene, text: &str) -> Result<AnyScene, OverrideError> {
     let bad =
         |reason: String| OverrideError::BadValue { key: key.into(), value: value.into(), reason };
 
-    let mut tree = serde_json::to_value(scene).map_err(|e| bad(e.to_string()))?;
+    let tree = serde_json::to_value(scene).map_err(|e| bad(e.to_string()))?;
     let in_method = !key.contains('.') && tree["method"].get(key).is_some();
     let path = if in_method { format!("method.{key}") } else { key.to_owned() };
-    *place(&mut tree, &path, key, value)? = parse(value).map_err(bad)?;
+    let with = |new: Value| {
+        let mut tree = tree.clone();
+        *place(&mut tree, &path, key, value)? = new;
+        read(scene, tree).map_err(bad)
+    };
+    match with(parse(value).map_err(bad)?) {
+        // What is not there is listed as `none`, and taken so where it is no choice.
+        Err(error) if value == "none" => with(Value::Null).map_err(|_| error),
+        done => done,
+    }
+}
 
+/// A scene of the kind of another.
+fn read(like: &AnyScene, tree: Value) -> Result<AnyScene, String> {
     // The JSON text of the value keeps the path of an error; the scene has no other route in.
-    let read = match scene {
+    let read = match like {
         AnyScene::Line(_) => serde_path_to_error::deserialize(tree).map(AnyScene::Line),
         AnyScene::Space(_) => serde_path_to_error::deserialize(tree).map(AnyScene::Space),
     };
@@ -86,10 +98,15 @@ fn apply_one(scene: &AnyScene, text: &str) -> Result<AnyScene, OverrideError> {
             ("invalid type: ", "found "),
             ("invalid value: ", "found "),
             ("unknown variant", "unknown choice"),
+            ("unit variant", "a word alone"),
+            ("newtype variant", "a table with its value, such as { steps = 20 }"),
             ("expected f64", "expected a number"),
             ("expected usize", "expected a whole number"),
+            ("expected a sequence", "expected a list, such as [1, 2]"),
+            ("expected an array of length 3", "expected a list of three, such as [1, 2, 3]"),
+            ("expected string or map", "expected a word, or a table such as { steps = 20 }"),
         ];
-        bad(words.iter().fold(inner, |text, (from, to)| text.replace(from, to)))
+        words.iter().fold(inner, |text, (from, to)| text.replace(from, to))
     })
 }
 
@@ -185,6 +202,13 @@ mod tests {
             |set: &str| changed(set).expect("it applies").space().cloned().expect("in space");
         assert_eq!(scene_of("visc_linear=1.0").method.visc_linear, 1.0);
         assert_eq!(scene_of("bodies.0.velocity.1=0.2").bodies[0].velocity[1], 0.2);
+        let melt = |set: &str| scene_of(set).materials[0].failure.melt;
+        assert!(melt("cfl=0.5").is_some());
+        assert_eq!(melt("materials.0.failure.melt=none"), None);
+        let refused = changed("cfl=none").expect_err("a number is needed").to_string();
+        assert!(refused.ends_with("found string \"none\", expected a number"), "{refused}");
+        let refused = changed("release=steps").expect_err("how many").to_string();
+        assert!(refused.ends_with("a table with its value, such as { steps = 20 }"), "{refused}");
         let refused = changed("heat_coef=1").expect_err("must be refused").to_string();
         assert!(refused.contains("heat_coeff"), "{refused}");
     }

@@ -73,6 +73,15 @@ impl AnyScene {
         }
     }
 
+    /// Its density scheme.
+    #[must_use]
+    pub fn density(&self) -> Density {
+        match self {
+            Self::Line(scene) => scene.method.density,
+            Self::Space(scene) => scene.method.density,
+        }
+    }
+
     /// Another density scheme.
     pub fn set_density(&mut self, density: Density) {
         match self {

@@ -200,11 +200,17 @@ fn compact(record: &RunRecord) -> RunRecord {
     out
 }
 
-/// Verdicts on the claims of all cases.
+/// Verdicts on the claims of all cases that have a record; of the others nothing can be said.
 #[must_use]
 pub fn verdicts(records: &Records) -> Vec<Verdict> {
-    let claims = crate::cases::ALL.iter().flat_map(|c| c.claims()).collect();
-    judge(claims, records)
+    let ran = crate::cases::ALL.iter().filter(|case| has_run(**case, records));
+    judge(ran.flat_map(|case| case.claims()).collect(), records)
+}
+
+/// Whether a case has a record.
+#[must_use]
+pub fn has_run(case: &dyn Case, records: &Records) -> bool {
+    records.of_case(case.id()).next().is_some()
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::mapping::Mapping;
 use super::method::Method;
 use crate::error::SceneError;
-use crate::method::{Density, Heating, Integrator};
+use crate::method::{Density, Heating, Integrator, STRONGEST, STRONGEST_WHY};
 use crate::units::Units;
 
 /// A complete problem statement.
@@ -377,21 +377,28 @@ impl Method {
             return Err(SceneError::new("method.heating", self.heating.name(), wanted));
         }
         positive("method.cfl", self.cfl)?;
-        for (key, value) in [
-            ("method.visc_linear", self.visc_linear),
-            ("method.visc_quad", self.visc_quad),
-            ("method.heat_coeff", self.heat_coeff),
-            ("method.visc_expansion", self.visc_expansion),
-            ("method.visc_volume", self.visc_volume),
-            ("method.visc_hourglass", self.visc_hourglass),
-            ("method.visc_hourglass_strong", self.visc_hourglass_strong),
-            ("method.limiter", self.limiter),
-            ("method.balance", self.balance),
-            ("method.hourglass", self.hourglass),
-            ("method.centring", self.centring),
-            ("method.contact_tolerance", self.contact_tolerance),
+        not_negative("method.limiter", self.limiter)?;
+        let spread = (STRONGEST, STRONGEST_WHY);
+        let dragged = (1.0, "the time step does not know how fast warped cells are dragged");
+        let locked = (10.0, "a mode that is so much stiffer than its cell cannot move");
+        for (key, value, most) in [
+            ("method.visc_linear", self.visc_linear, spread),
+            ("method.visc_quad", self.visc_quad, spread),
+            ("method.heat_coeff", self.heat_coeff, spread),
+            ("method.visc_expansion", self.visc_expansion, spread),
+            ("method.visc_volume", self.visc_volume, spread),
+            ("method.visc_hourglass", self.visc_hourglass, dragged),
+            ("method.visc_hourglass_strong", self.visc_hourglass_strong, dragged),
+            ("method.hourglass", self.hourglass, locked),
+            ("method.centring", self.centring, locked),
+            ("method.balance", self.balance, (2.0, "it overshoots the balance, which is 1")),
+            (
+                "method.contact_tolerance",
+                self.contact_tolerance,
+                (0.3, "contacts reach through neighbours"),
+            ),
         ] {
-            not_negative(key, value)?;
+            SceneError::coefficient(key, value, most)?;
         }
         if !(1.0..1.3).contains(&self.contact_reach) {
             let wanted = "it must be from 1 to 1.3: beyond, contacts reach through neighbours";

@@ -18,6 +18,7 @@ use super::walls::{Given, Wall};
 use crate::counters::Counters;
 use crate::error::{SceneError, StepError};
 use crate::method::Density;
+use crate::timestep::SMALLEST_STEP;
 
 /// Largest growth of the time step.
 const GROWTH: f64 = 1.05;
@@ -53,6 +54,8 @@ pub struct Simulation {
     /// Length of the last kick.
     pub(super) kick: f64,
     pub(super) first_dt: f64,
+    /// A step below this has collapsed, whatever the first one was.
+    smallest_step: f64,
     /// Work of the particles on the elements' shear and tension so far.
     pub(super) element_work: f64,
     /// Heat of plastic flow and damage so far.
@@ -125,6 +128,7 @@ impl Simulation {
             dt: 0.0,
             kick: 0.0,
             first_dt: 0.0,
+            smallest_step: SMALLEST_STEP * scene.stop_time,
             element_work: 0.0,
             element_heat: 0.0,
             spring_work: 0.0,
@@ -295,23 +299,27 @@ impl Simulation {
 
     /// The length of the step: what sound, the density and the elements allow, and landing on `until`.
     fn elect(&mut self, until: f64) -> Result<f64, StepError> {
-        let mut dt = self.allowed.sound;
+        let mut sound = self.allowed.sound;
         for body in &self.mesh.bodies {
-            dt = dt.min(CROSSING * body.edge() / body.solid.sound);
+            sound = sound.min(CROSSING * body.edge() / body.solid.sound);
         }
-        if self.demand.rate > 0.0 {
-            dt = dt.min(1.0 / self.demand.rate);
-        }
-        let mut dt = (self.method.cfl * dt).min(self.allowed.density);
+        let rate = self.demand.rate;
+        let elements = if rate > 0.0 { 1.0 / rate } else { f64::INFINITY };
+        let mut dt = (self.method.cfl * sound.min(elements)).min(self.allowed.density);
         if self.dt > 0.0 {
             dt = dt.min(GROWTH * self.dt);
         } else {
             self.first_dt = dt;
         }
-        if dt.is_nan() || dt < COLLAPSED * self.first_dt {
+        let floor = (COLLAPSED * self.first_dt).max(self.smallest_step);
+        if dt.is_nan() || dt < floor {
             let particle = self.mesh.pieces[self.allowed.piece].range.start;
-            let (value, floor) = (dt, COLLAPSED * self.first_dt);
-            let limiter = "sound or change of density";
+            let value = dt;
+            let limiter = if elements < sound {
+                "viscosity and stiffness of elements; sound crosses soonest"
+            } else {
+                "sound or change of density"
+            };
             return Err(StepError::TimeStep { particle, time: self.time, value, floor, limiter });
         }
         let left = until - self.time;

@@ -51,6 +51,7 @@ fn bad_choices_are_named() {
         refused(|s| s.method.visc_quad = -1.0),
         refused(|s| s.method.visc_expansion = f64::INFINITY),
         refused(|s| s.method.heat_coeff = -0.1),
+        refused(|s| s.method.visc_linear = 1e9),
         refused(|s| {
             s.method.density = Density::Kernel;
             s.method.kernel_support = 5.0;

@@ -145,7 +145,7 @@ fn density(args: &BenchArgs) -> Result<(), Failure> {
 fn row(integrator: Integrator, name: &str, found: &Comparison) -> String {
     let (low, high) = found.spread();
     let integrator = match integrator {
-        Integrator::SinglePass => "single pass",
+        Integrator::SinglePass => "single-pass",
         Integrator::Compatible => "compatible",
     };
     let spread = format!("{low:.3} .. {high:.3}");

@@ -9,7 +9,7 @@ use super::run::{find, named_variants};
 use super::{Cli, Failure, ListArgs, print};
 use crate::cases::{ALL, Case, Level};
 use crate::claims::{Claim, Weight};
-use crate::keys::{Key, of_method, of_presets, of_problem};
+use crate::keys::{Key, idle, of_method, of_presets, of_problem};
 use crate::scene::AnyScene;
 use crate::suite::level_of;
 
@@ -141,14 +141,29 @@ fn all_keys() -> Result<String, Failure> {
 fn keys_of(case: &dyn Case) -> String {
     let [paper, default] = of_presets(|preset| case.scene(preset, "", case.default_size()));
     let both = [&paper, &default];
+    let method = of_method(both).into_iter().map(|key| {
+        let meaning = key.meaning.clone() + &changes_nothing(&key.name, both);
+        Key { meaning, ..key }
+    });
     format!(
         "Keys of `run {} --set KEY=VALUE`: the value under the presets `paper` and `default` at --n {}, and \
          the unit.\n\nMethod:\n\n{}\nProblem:\n\n{}",
         case.id(),
         case.default_size(),
-        table(&of_method(both)),
+        table(&method.collect::<Vec<Key>>()),
         table(&of_problem(both))
     )
+}
+
+/// What is said of a key that one or both scenes of a case have no use for.
+fn changes_nothing(key: &str, scenes: [&AnyScene; 2]) -> String {
+    let (who, why) = match scenes.map(|scene| idle(key, scene)) {
+        [None, None] => return String::new(),
+        [Some(why), Some(_)] => ("in this case", why),
+        [Some(why), None] => ("under `paper`", why),
+        [None, Some(why)] => ("under `default`", why),
+    };
+    format!(" Changes nothing {who}: {why}.")
 }
 
 /// Keys with their values, and what they are below them.

@@ -15,8 +15,9 @@ static STOP: AtomicBool = AtomicBool::new(false);
 /// Parts of a run that the bar is divided into.
 const PARTS: u64 = 1000;
 
-/// Time between two lines of progress where there is no bar.
-const PATIENCE: Duration = Duration::from_secs(60);
+/// Least and greatest time between two lines of progress where there is no bar: in between it is a tenth of
+/// what a run has taken so far.
+const PATIENCE: [Duration; 2] = [Duration::from_secs(10), Duration::from_secs(60)];
 
 /// What is known of a run before it begins.
 #[derive(Debug, Clone, Copy, Default)]
@@ -45,7 +46,7 @@ struct State {
 }
 
 impl Progress {
-    /// A bar on standard error, if that is a terminal, and else a line a minute; and an interrupt that
+    /// A bar on standard error, if that is a terminal, and else a line now and then; and an interrupt that
     /// ends the run after the step. A second interrupt ends the program.
     pub(super) fn new(outlook: Outlook) -> Self {
         // A handler that is there already serves as well.
@@ -91,6 +92,12 @@ impl Progress {
     }
 }
 
+/// Time between two lines of a run that has taken so long.
+fn patience(so_far: Duration) -> Duration {
+    let [least, most] = PATIENCE;
+    (so_far / 10).clamp(least, most)
+}
+
 impl Monitor for Progress {
     fn tick(&self, time: f64, stop: f64, particle_steps: u64) -> bool {
         let mut state = self.state();
@@ -107,7 +114,7 @@ impl Monitor for Progress {
         if let Ok(left) = Duration::try_from_secs_f64(left.ceil()) {
             message += &format!(", {} left", humantime::format_duration(left));
         }
-        if state.said.is_some_and(|last| last.elapsed() >= PATIENCE) {
+        if state.said.is_some_and(|last| last.elapsed() >= patience(state.start.elapsed())) {
             state.said = Some(Instant::now());
             super::say(&format!("{}: {message}", self.bar.prefix()));
         }
@@ -119,5 +126,16 @@ impl Monitor for Progress {
 
     fn drift(&self, energy: f64) {
         self.state().drift = Some(energy);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_come_soon_and_then_less_often() {
+        let after = |seconds| patience(Duration::from_secs(seconds)).as_secs();
+        assert_eq!([0, 100, 300, 7200].map(after), [10, 10, 30, 60]);
     }
 }

@@ -7,7 +7,7 @@ use std::time::Duration;
 use super::progress::{Outlook, Progress};
 use super::run::find_all;
 use super::sizes::expect;
-use super::{CLAIM_FAILED, Failure, ReferenceArgs, ReportArgs, VvArgs, print, say};
+use super::{CLAIM_FAILED, Failure, ReferenceArgs, ReportArgs, VvArgs, pictures, print, say};
 use crate::cases::{ALL, Case, Level, woodward_colella};
 use crate::claims::{Status, Verdict, Weight};
 use crate::document;
@@ -16,7 +16,7 @@ use crate::memory::Keeps;
 use crate::pictures::read_pictures;
 use crate::plots;
 use crate::record::{Outcome, Records};
-use crate::report::{self, Drawing};
+use crate::report::{self, Drawing, Pictures};
 use crate::suite::{Forecast, covers, forecast, records_folder, run_suite, scene_of, verdicts};
 
 /// Runs, judges, reports.
@@ -49,7 +49,7 @@ pub(super) fn vv(args: &VvArgs) -> Result<u8, Failure> {
     });
     progress.done();
     ended?;
-    let verdicts = draw(&args.out)?;
+    let verdicts = draw(&args.out, pictures(args.single_file))?;
     let ran = |v: &&Verdict| cases.iter().any(|c| c.id() == v.claim.case);
     conclude(verdicts.iter().filter(ran), &args.out)
 }
@@ -105,19 +105,20 @@ fn usual(level: Level) -> &'static str {
 
 /// Redraws the report, or compares it with what a redraw would give.
 pub(super) fn report(args: &ReportArgs) -> Result<u8, Failure> {
+    let pictures = pictures(args.single_file);
     if args.check {
-        return check(&args.out);
+        return check(&args.out, pictures);
     }
-    let verdicts = draw(&args.out)?;
+    let verdicts = draw(&args.out, pictures)?;
     conclude(verdicts.iter(), &args.out)
 }
 
 /// Compares the report with a fresh one.
-fn check(folder: &Path) -> Result<u8, Failure> {
+fn check(folder: &Path, pictures: Pictures) -> Result<u8, Failure> {
     let fresh =
         tempfile::tempdir().map_err(|e| Failure::usage(format!("no temporary folder: {e}")))?;
     let (page, figures, _) = made(folder)?;
-    report::write(&page, &figures, fresh.path()).map_err(Failure::usage)?;
+    report::write(&page, &figures, fresh.path(), pictures).map_err(Failure::usage)?;
     let mut differing = Vec::new();
     compare(fresh.path(), folder, Path::new(""), &mut differing)?;
     if differing.is_empty() {
@@ -172,9 +173,9 @@ fn made(folder: &Path) -> Result<Made, Failure> {
     Ok((page, drawings, verdicts))
 }
 
-fn draw(folder: &Path) -> Result<Vec<Verdict>, Failure> {
+fn draw(folder: &Path, pictures: Pictures) -> Result<Vec<Verdict>, Failure> {
     let (page, figures, verdicts) = made(folder)?;
-    report::write(&page, &figures, folder).map_err(Failure::usage)?;
+    report::write(&page, &figures, folder, pictures).map_err(Failure::usage)?;
     Ok(verdicts)
 }
 
@@ -204,6 +205,10 @@ fn conclude<'a>(verdicts: impl Iterator<Item = &'a Verdict>, out: &Path) -> Resu
 
 /// Makes the Woodward-Colella reference.
 pub(super) fn reference(args: &ReferenceArgs) -> Result<u8, Failure> {
+    // Before it is computed, which takes minutes.
+    if let Some(folder) = args.out.parent().filter(|folder| !folder.as_os_str().is_empty()) {
+        ensure_writable_dir(folder)?;
+    }
     let text = woodward_colella::make_reference()?;
     write_atomic(&args.out, text.as_bytes())?;
     print(&format!("wrote {}\n", args.out.display()))?;

@@ -212,7 +212,7 @@ pub(super) fn text(bounds: &Bounds, record: &RunRecord) -> String {
         out += "\n";
     };
     for (name, value) in &record.norms {
-        row(name, sig(*value, 5));
+        row(name, if value.is_nan() { "no number".into() } else { sig(*value, 5) });
     }
     row(ENERGY, sig(record.energy_drift, 2));
     row(MOMENTUM, sig(record.momentum_drift, 2));

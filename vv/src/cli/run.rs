@@ -13,6 +13,7 @@ use super::sizes::{expect, no_size};
 use super::{Failure, INTERRUPTED, NUMERICAL_FAILURE, RunArgs, print, say};
 use crate::cases::{self, Case};
 use crate::files::ensure_writable_dir;
+use crate::keys;
 use crate::memory::Keeps;
 use crate::overrides;
 use crate::record::{RunKey, Scheme};
@@ -140,16 +141,26 @@ fn how_to_go_on(args: &RunArgs, command: &str, checkpoint: Option<&Path>) -> Str
     if args.threads != 1 {
         again += &format!(" --threads {}", args.threads);
     }
-    for (option, time) in [("--max-wall", args.max_wall), ("--checkpoint", args.checkpoint)] {
-        if let Some(time) = time {
-            let time = humantime::format_duration(time).to_string().replace(' ', "");
-            again += &format!(" {option} {time}");
-        }
+    // Whoever waits for the rest wants it whole: `--max-wall` is left out.
+    if let Some(every) = args.checkpoint {
+        let every = humantime::format_duration(every).to_string().replace(' ', "");
+        again += &format!(" --checkpoint {every}");
     }
     let [out, checkpoint] = [out, checkpoint].map(|path| path.display());
     format!("; continue with\n  {again} --out {out} --resume {checkpoint}")
 }
 
+/// Mentions the keys of `--set` that this scene has no use for.
+fn note_idle(sets: &[String], scene: &AnyScene) {
+    for set in sets {
+        let key = set.split('=').next().unwrap_or_default().trim();
+        if let Some(why) = keys::idle(key, scene) {
+            say(&format!("note: `--set {set}` changes nothing in this run: {why}"));
+        }
+    }
+}
+
+/// The case of a name.
 pub(super) fn find(name: &str) -> Result<&'static dyn Case, Failure> {
     cases::find(name).ok_or_else(|| {
         let known: Vec<&str> = cases::ALL.iter().map(|c| c.id()).collect();
@@ -163,7 +174,15 @@ pub(super) fn find_all(names: &[String]) -> Result<Vec<&'static dyn Case>, Failu
     if names.is_empty() {
         return Ok(cases::ALL.to_vec());
     }
-    names.iter().map(|name| find(name)).collect()
+    let mut cases: Vec<&'static dyn Case> = Vec::new();
+    for name in names {
+        let case = find(name)?;
+        // One that is named twice runs once.
+        if !cases.iter().any(|other| other.id() == case.id()) {
+            cases.push(case);
+        }
+    }
+    Ok(cases)
 }
 
 /// A variant that the case does not have.
@@ -181,7 +200,6 @@ pub(super) fn named_variants(case: &dyn Case) -> Vec<&'static str> {
 
 /// The run that the arguments ask for, and what is wanted of its numbers.
 fn request<'a>(case: &'a dyn Case, args: &RunArgs) -> Result<(Request, Bounds<'a>), Failure> {
-    let n = args.n.unwrap_or_else(|| case.default_size());
     let preset = Preset::from(args.preset);
     let scheme = if args.godunov {
         Scheme::Godunov
@@ -189,38 +207,16 @@ fn request<'a>(case: &'a dyn Case, args: &RunArgs) -> Result<(Request, Bounds<'a
         let density = args.density.map_or(preset.method().density, Into::into);
         Scheme::Particles { preset, density }
     };
+    let n = args.n.unwrap_or_else(|| case.default_size());
     let mut key = RunKey::new(case.id(), scheme, n).variant(&args.variant);
-    let plain = scene_of(case, &key);
     let bounds = Bounds::new(case, key.clone(), args.stop.is_some() || !args.sets.is_empty());
+    let plain = scene_of(case, &key);
     let units = plain.as_ref().map_or(Units::None, AnyScene::units);
     let stop = args.stop.map(|time| time.in_units("--stop", units)).transpose()?;
-    let scene = plain
-        .clone()
-        .map(|scene| overrides::apply(scene, &args.sets))
-        .transpose()
-        .map_err(Failure::usage)?;
-    let scene = scene.map(|mut scene| {
-        if let Some(time) = stop {
-            scene.set_stop_time(time);
-        }
-        scene
-    });
-    if let (Some(scene), Some(plain)) = (&scene, &plain) {
-        scene.validate().map_err(|error| match plain.validate() {
-            Err(error) => no_size(case, &key, &error),
-            Ok(()) => Failure::usage(error),
-        })?;
-        let (folder, resumed) = (args.out.is_some(), args.resume.is_some());
-        expect(case, ("--n", n), scene, Keeps { folder, resumed })?;
-        if let AnyScene::Line(scene) = scene {
-            key.n = scene.particles();
-        }
-        if !scene.same_problem(plain) {
-            say(
-                "note: the problem was changed, the norms still compare with the answer to the case",
-            );
-        }
-    }
+    let scene = match plain {
+        Some(plain) => Some(changed(case, &mut key, (plain, stop), args)?),
+        None => None,
+    };
     let mut command = command_of(&key);
     if let Some(time) = stop {
         command += &format!(" --stop {time}");
@@ -229,4 +225,37 @@ fn request<'a>(case: &'a dyn Case, args: &RunArgs) -> Result<(Request, Bounds<'a
         command += &format!(" --set {set}");
     }
     Ok((Request { key, scene, threads: args.threads, command }, bounds))
+}
+
+/// The plain scene of a run with what `--set` and `--stop` make of it, checked; the key follows it.
+fn changed(
+    case: &dyn Case,
+    key: &mut RunKey,
+    (plain, stop): (AnyScene, Option<f64>),
+    args: &RunArgs,
+) -> Result<AnyScene, Failure> {
+    let mut scene = overrides::apply(plain.clone(), &args.sets).map_err(Failure::usage)?;
+    if let Some(time) = stop {
+        scene.set_stop_time(time);
+    }
+    scene.validate().map_err(|error| match plain.validate() {
+        Err(error) => no_size(case, key, &error),
+        Ok(()) => Failure::usage(error),
+    })?;
+    let (folder, resumed) = (args.out.is_some(), args.resume.is_some());
+    expect(case, ("--n", key.n), &scene, Keeps { folder, resumed })?;
+    if let AnyScene::Line(scene) = &scene {
+        key.n = scene.particles();
+    }
+    // The record says what ran, whichever option chose it.
+    if let (Scheme::Particles { density, .. }, true) =
+        (&mut key.scheme, scene.density() != plain.density())
+    {
+        *density = scene.density();
+    }
+    note_idle(&args.sets, &scene);
+    if !scene.same_problem(&plain) {
+        say("note: the problem was changed, the norms still compare with the answer to the case");
+    }
+    Ok(scene)
 }

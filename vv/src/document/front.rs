@@ -1,11 +1,12 @@
 //! Sections of the report that are not about one case.
 
+use crate::cases::Case;
 use crate::claims::{Kind, Status as Judged, Verdict, Weight};
 use crate::record::{Outcome, Records, RunRecord, Scheme};
 use crate::report::{Block, Cell, Column, Section, Status, Summary, Table, sig};
 
-/// The verdict in a sentence, with counts.
-pub(super) fn verdict(verdicts: &[Verdict]) -> Summary {
+/// The verdict in a sentence, with counts. Cases that were not run are named, and not counted.
+pub(super) fn verdict(verdicts: &[Verdict], not_run: &[&dyn Case]) -> Summary {
     let count = |weight, status| {
         verdicts.iter().filter(|v| v.claim.weight == weight && v.status == status).count()
     };
@@ -17,10 +18,17 @@ pub(super) fn verdict(verdicts: &[Verdict]) -> Summary {
         text += &format!("; {missing} have no record");
     }
     let aims = (count(Weight::Aim, Judged::Pass), count(Weight::Aim, Judged::Fail));
-    text += &format!(". Of the goals beyond them {} of {} are reached.", aims.0, aims.0 + aims.1);
+    text += ".";
+    if aims.0 + aims.1 > 0 {
+        let all = aims.0 + aims.1;
+        text += &format!(" Of the goals beyond them {} of {all} are reached.", aims.0);
+    }
     let stale = verdicts.iter().filter(|v| v.stale).count();
     if stale > 0 {
         text += &format!(" {stale} claims rest on records older than the solver.");
+    }
+    if !not_run.is_empty() {
+        text += &format!(" {} cases were not run, and are not counted.", not_run.len());
     }
     let mut counts = vec![(Status::Pass, passed), (Status::Fail, failed)];
     if missing > 0 {
@@ -32,8 +40,33 @@ pub(super) fn verdict(verdicts: &[Verdict]) -> Summary {
     Summary { text, counts }
 }
 
-/// What failed, and how many claims of each kind there are.
-pub(super) fn summary(verdicts: &[Verdict]) -> Section {
+/// What failed, how many claims of each kind there are, and what was not run.
+pub(super) fn summary(verdicts: &[Verdict], not_run: &[&dyn Case]) -> Section {
+    let failed = verdicts.iter().filter(|v| v.status == Judged::Fail);
+    let (required, other): (Vec<&Verdict>, Vec<&Verdict>) =
+        failed.partition(|v| v.claim.weight == Weight::Must);
+    let mut blocks = vec![Block::Table(kinds_table(verdicts))];
+    if !not_run.is_empty() {
+        let names: Vec<&str> = not_run.iter().map(|case| case.id()).collect();
+        let text = format!(
+            "Not run, so that nothing here speaks of them: {}. `whipple vv` without a name runs all.",
+            names.join(", ")
+        );
+        blocks.push(Block::Callout { kind: Status::Info, text });
+    }
+    if !required.is_empty() {
+        blocks.push(Block::Table(claims_table("failed", "Required claims that fail.", &required)));
+    }
+    if !other.is_empty() {
+        let caption = "Goals not reached, and known limits that are shown: of the paper's method in rows of \
+                       `paper`, of this project's own in rows of `default`.";
+        blocks.push(Block::Table(claims_table("not-reached", caption, &other)));
+    }
+    Section::new("summary", "Summary", blocks)
+}
+
+/// How many claims of each kind there are, by weight and judgement.
+fn kinds_table(verdicts: &[Verdict]) -> Table {
     let kinds = [
         Kind::Verification,
         Kind::Replication,
@@ -68,21 +101,9 @@ pub(super) fn summary(verdicts: &[Verdict]) -> Section {
         number("goals: reached"),
         number("missed"),
     ];
-    let caption = "Claims by kind. Validation needs an experiment; the one-dimensional problems \
-                   have none.";
-    let kinds = Table { id: "kinds".into(), caption: caption.into(), columns, rows };
-    let failed = verdicts.iter().filter(|v| v.status == Judged::Fail);
-    let (required, other): (Vec<&Verdict>, Vec<&Verdict>) =
-        failed.partition(|v| v.claim.weight == Weight::Must);
-    let mut blocks = vec![Block::Table(kinds)];
-    if !required.is_empty() {
-        blocks.push(Block::Table(claims_table("failed", "Required claims that fail.", &required)));
-    }
-    if !other.is_empty() {
-        let caption = "Goals not reached, and known limits of the paper's method.";
-        blocks.push(Block::Table(claims_table("not-reached", caption, &other)));
-    }
-    Section::new("summary", "Summary", blocks)
+    let caption = "Claims by kind. Validation needs an experiment: the long rod and the Taylor \
+                   impacts have one.";
+    Table { id: "kinds".into(), caption: caption.into(), columns, rows }
 }
 
 /// A table of verdicts.
@@ -155,9 +176,8 @@ pub(super) fn reading() -> Section {
          name `paper`. `default + kernel` has an evolving kernel density in its place and all else equal. \
          *Godunov* is a second-order Eulerian code of this project that shares nothing with the \
          particle solver: a second opinion.",
-        "Required claims (*must*) decide the verdict. An *aim* is a goal beyond them. A *shown* claim \
-         states a known limit of the paper's method: its failure is expected and stands here with its \
-         figure.",
+        "*Required* claims decide the verdict. A *goal* goes beyond them. A *shown* claim states a known \
+         limit of the preset that it names: its failure is expected and stands here with its figure.",
         "*In sample*: a constant of the method was chosen by looking at this number.",
         "Orders are fitted by least squares over all sizes; the interval in brackets is 95 %. Shocks \
          are captured over a fixed number of particles, so that RMS norms converge with order 1/2 and \
@@ -311,30 +331,6 @@ pub(super) fn cost(records: &Records) -> Section {
                  its pairs. Between particles of live elements there are none where elements carry \
                  the pressure. `whipple bench rod` says where the time goes.";
     Section::new("cost", "Cost", vec![Block::Paragraph(about.into()), Block::Table(table)])
-}
-
-/// Where the method departs from what is printed.
-pub(super) fn deviations() -> Section {
-    let items = [
-        "Both presets: the viscous force repels (51), (74); the pressure force has the factor ρ₀² \
-         that (78) lacks; the contact coordinate of a pair uses the mean length of both; particles of \
-         solids push and never pull, tension belongs to the segments (25). Decision 0001.",
-        "One dimension: the sums of (34) and (78) have the coefficient 1/2 and two neighbours, where \
-         the printed 3/8 is for eight. Decision 0002.",
-        "The contact (35) is met with equality in every uniform state and cannot decide there: along \
-         a chain the nearest particle is in contact, between bodies while ζ < 1. Decision 0003.",
-        "`paper`: sound speed from the total internal energy, u₀ = 1 of Table 1 included; decision \
-         0004. Heating as printed, in the frame of the wall; decision 0005.",
-        "`default`: density of the segments; viscosity on the part of the velocity jump that the \
-         neighbours do not explain, heat shared half and half; decisions 0003, 0005, 0006. Total \
-         energy conserved by the compatible integrator; decision 0007.",
-        "The kernel density evolves: its support follows the density, so that the number of neighbours \
-         stays the same. It is solved for by iteration and costs more than a plain sum would; a \
-         support fixed in the reference lattice fails on the wall shock. Decision 0003.",
-        "Not modelled in one dimension: rotation, shear, plasticity, damage.",
-    ];
-    let blocks = vec![Block::List(items.map(String::from).to_vec())];
-    Section::new("deviations", "Deviations from the paper, and limits", blocks)
 }
 
 /// Where the numbers come from.

@@ -1,8 +1,8 @@
-//! The report as one self-contained page.
+//! The report as a page, with its pictures beside it or within.
 
 use super::ReportError;
 use super::inline;
-use super::model::{Align, Block, Drawing, Report};
+use super::model::{Align, Block, Drawing, Pictures, Report};
 use super::outline::{self, Chapter};
 use crate::plots::{THEME, themed};
 use crate::xml::escape;
@@ -18,6 +18,7 @@ struct Page<'a> {
     report: &'a Report,
     chapters: Vec<Chapter<'a>>,
     figures: &'a BTreeMap<String, Drawing>,
+    pictures: Pictures,
 }
 
 impl Page<'_> {
@@ -40,20 +41,24 @@ impl Page<'_> {
         }
     }
 
-    /// The picture for light and dark pages within the page; paper gets the light one.
+    /// The picture for light and dark pages; paper gets the light one.
     fn picture(&self, id: &str, caption: &str) -> String {
         let Some(Drawing::Picture { light, dark }) = self.figures.get(id) else {
             return String::new();
         };
-        let data = |file: &[u8]| format!("data:image/png;base64,{}", STANDARD.encode(file));
+        let [light_name, dark_name] = Drawing::picture_files(id);
+        let source = |name: &str, file: &[u8]| match self.pictures {
+            Pictures::Beside => format!("figures/{name}"),
+            Pictures::Within => format!("data:image/png;base64,{}", STANDARD.encode(file)),
+        };
         let size = size(light).map(|[w, h]| format!(" width=\"{w}\" height=\"{h}\""));
         format!(
             "<picture><source media=\"screen and (prefers-color-scheme: dark)\" srcset=\"{}\">\
-             <img alt=\"{}\"{} src=\"{}\"></picture>",
-            data(dark),
+             <img loading=\"lazy\" alt=\"{}\"{} src=\"{}\"></picture>",
+            source(&dark_name, dark),
             escape(&inline::plain(caption)),
             size.unwrap_or_default(),
-            data(light),
+            source(&light_name, light),
         )
     }
 
@@ -78,15 +83,19 @@ impl Page<'_> {
     }
 }
 
-/// The report as one page without scripts or outside resources, in light and dark, for screen and
-/// paper.
+/// The report as a page without scripts, in light and dark, for screen and paper. Charts are drawn in the
+/// page; it needs nothing beside it but its pictures, and those only if they are not within.
 ///
 /// # Errors
 /// An id is unfit or used twice, a figure is missing, or a row does not fit its table.
-pub fn html(report: &Report, figures: &BTreeMap<String, Drawing>) -> Result<String, ReportError> {
+pub fn html(
+    report: &Report,
+    figures: &BTreeMap<String, Drawing>,
+    pictures: Pictures,
+) -> Result<String, ReportError> {
     outline::check(report, figures)?;
     let chapters = outline::outline(report);
-    Ok(Page { report, chapters, figures }.render()?)
+    Ok(Page { report, chapters, figures, pictures }.render()?)
 }
 
 /// Width and height of a PNG file in pixels.

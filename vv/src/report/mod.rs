@@ -1,4 +1,4 @@
-//! Reports: a neutral document model ([`Report`]) and its renderings as one HTML page, Markdown
+//! Reports: a neutral document model ([`Report`]) and its renderings as an HTML page, Markdown
 //! and CSV, and a folder of all of them.
 //!
 //! Nothing here knows the date or the machine: the same input gives the same bytes.
@@ -14,7 +14,9 @@ mod write;
 
 pub use html::html;
 pub use markdown::markdown;
-pub use model::{Align, Block, Cell, Column, Drawing, Report, Section, Status, Summary, Table};
+pub use model::{
+    Align, Block, Cell, Column, Drawing, Pictures, Report, Section, Status, Summary, Table,
+};
 pub use number::sig;
 pub use sheet::csv;
 pub use write::write;

@@ -116,6 +116,15 @@ impl From<&str> for Drawing {
     }
 }
 
+/// Where the page has its pictures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pictures {
+    /// In `figures/` beside it, read when they come into view.
+    Beside,
+    /// In itself: one file that can be sent around.
+    Within,
+}
+
 /// A verdict, or the weight of a remark.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 pub enum Status {

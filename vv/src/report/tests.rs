@@ -113,7 +113,7 @@ fn csv_keeps_whole_numbers_and_verdicts() {
 
 #[test]
 fn page_is_self_contained_themed_and_escaped() {
-    let page = html(&report(), &figures()).unwrap();
+    let page = html(&report(), &figures(), Pictures::Beside).unwrap();
     assert!(page.contains("<title>Verification &#60;report&#62;</title>"));
     assert!(page.contains("stroke=\"var(--fig-s1,#0072b2)\""));
     assert!(page.contains("<b>Figure 1</b> – Noh &amp; exact"));
@@ -123,7 +123,7 @@ fn page_is_self_contained_themed_and_escaped() {
     for outside in ["<script", "<link", "@import", "src="] {
         assert!(!page.contains(outside), "{outside}");
     }
-    assert_eq!(page, html(&report(), &figures()).unwrap());
+    assert_eq!(page, html(&report(), &figures(), Pictures::Beside).unwrap());
 }
 
 #[test]
@@ -134,14 +134,14 @@ fn contradictions_are_errors() {
     };
     let none = BTreeMap::new();
     let missing = with(Block::Figure { id: "x".into(), caption: String::new() });
-    assert!(matches!(html(&missing, &none), Err(ReportError::MissingFigure(_))));
+    assert!(matches!(html(&missing, &none, Pictures::Beside), Err(ReportError::MissingFigure(_))));
     let escaping = with(Block::Table(Table { id: "../x".into(), ..Table::default() }));
-    assert!(matches!(html(&escaping, &none), Err(ReportError::Id(_))));
+    assert!(matches!(html(&escaping, &none, Pictures::Beside), Err(ReportError::Id(_))));
     let ragged = with(Block::Table(Table { columns: vec![], ..table() }));
-    assert!(matches!(html(&ragged, &none), Err(ReportError::Ragged(_))));
+    assert!(matches!(html(&ragged, &none, Pictures::Beside), Err(ReportError::Ragged(_))));
     let mut twice = with(Block::Table(table()));
     twice.sections[0].blocks.push(Block::Table(table()));
-    assert!(matches!(html(&twice, &none), Err(ReportError::Duplicate(_))));
+    assert!(matches!(html(&twice, &none, Pictures::Beside), Err(ReportError::Duplicate(_))));
 }
 
 #[test]
@@ -150,12 +150,12 @@ fn a_new_report_replaces_the_old_and_nothing_else() {
     let dir = folder.path().join("new/report");
     let mut more = figures();
     more.insert("old".into(), SVG.into());
-    write(&report(), &more, &dir).unwrap();
+    write(&report(), &more, &dir, Pictures::Beside).unwrap();
     assert!(dir.join("figures/old.png").exists());
     fs::write(dir.join("figures/mine.svg"), "mine").unwrap();
     // A run that was killed left something behind.
     fs::create_dir_all(dir.join(".report-partial/figures")).unwrap();
-    write(&report(), &figures(), &dir).unwrap();
+    write(&report(), &figures(), &dir, Pictures::Beside).unwrap();
     assert!(!dir.join("figures/old.svg").exists() && !dir.join("figures/old.png").exists());
     assert!(!dir.join(".report-partial").exists());
     for file in
@@ -175,20 +175,27 @@ fn pictures_are_in_the_page_and_beside_it() {
     let (light, dark) = (b"\x89PNG, light".to_vec(), b"\x89PNG, dark".to_vec());
     let drawing = Drawing::Picture { light: light.clone(), dark: dark.clone() };
     drawings.insert("rod".into(), drawing);
-    write(&shown, &drawings, folder.path()).unwrap();
+    write(&shown, &drawings, folder.path(), Pictures::Beside).unwrap();
     assert_eq!(fs::read(folder.path().join("figures/rod.png")).unwrap(), light);
     assert_eq!(fs::read(folder.path().join("figures/rod-dark.png")).unwrap(), dark);
     let page = fs::read_to_string(folder.path().join("index.html")).unwrap();
     assert!(page.contains("alt=\"A &quot;rod&quot;\""), "{page}");
-    assert_eq!(page.matches("data:image/png;base64,").count(), 2);
+    assert!(page.contains("srcset=\"figures/rod-dark.png\"") && !page.contains("data:"), "{page}");
+    assert!(page.contains("<img loading=\"lazy\"") && page.contains("src=\"figures/rod.png\""));
+    let whole = html(&shown, &drawings, Pictures::Within).unwrap();
+    assert_eq!(whole.matches("data:image/png;base64,").count(), 2);
+    assert!(!whole.contains("figures/"), "nothing beside it");
     assert!(page.contains("<b>Figure 2</b>"));
     assert!(markdown(&shown).contains("![A \"rod\"](figures/rod.png)\n\n**Figure 2** – A"));
     // One that is gone from the report goes from the folder.
-    write(&report(), &figures(), folder.path()).unwrap();
+    write(&report(), &figures(), folder.path(), Pictures::Beside).unwrap();
     assert!(!folder.path().join("figures/rod-dark.png").exists());
-    assert!(matches!(html(&shown, &figures()), Err(ReportError::MissingFigure(_))));
+    assert!(matches!(
+        html(&shown, &figures(), Pictures::Beside),
+        Err(ReportError::MissingFigure(_))
+    ));
     shown.sections[0].blocks.push(picture("rod"));
-    assert!(matches!(html(&shown, &drawings), Err(ReportError::Duplicate(_))));
+    assert!(matches!(html(&shown, &drawings, Pictures::Beside), Err(ReportError::Duplicate(_))));
 }
 
 #[test]
@@ -197,7 +204,7 @@ fn refusals_name_path_and_cause() {
     let file = folder.path().join("file");
     fs::write(&file, "").unwrap();
     for dir in [file.clone(), file.join("below")] {
-        let error = write(&report(), &figures(), &dir).unwrap_err();
+        let error = write(&report(), &figures(), &dir, Pictures::Beside).unwrap_err();
         assert!(matches!(&error, ReportError::Io { .. }) && error.source().is_some());
         assert!(error.to_string().contains(dir.to_str().unwrap()), "{error}");
     }
@@ -206,7 +213,8 @@ fn refusals_name_path_and_cause() {
 #[cfg(target_os = "linux")]
 #[test]
 fn a_read_only_file_system_refuses() {
-    let error = write(&report(), &figures(), "/proc/whipple".as_ref()).unwrap_err();
+    let error =
+        write(&report(), &figures(), "/proc/whipple".as_ref(), Pictures::Beside).unwrap_err();
     assert!(error.to_string().starts_with("cannot create the folder `/proc/whipple"), "{error}");
 }
 
@@ -214,10 +222,10 @@ fn a_read_only_file_system_refuses() {
 fn something_in_the_way_leaves_no_index() {
     let folder = tempfile::tempdir().unwrap();
     let dir = folder.path();
-    write(&report(), &figures(), dir).unwrap();
+    write(&report(), &figures(), dir, Pictures::Beside).unwrap();
     fs::remove_file(dir.join("tables/norms.csv")).unwrap();
     fs::create_dir_all(dir.join("tables/norms.csv/full")).unwrap();
-    let error = write(&report(), &figures(), dir).unwrap_err();
+    let error = write(&report(), &figures(), dir, Pictures::Beside).unwrap_err();
     assert!(error.to_string().contains("norms.csv"), "{error}");
     assert!(!dir.join("index.html").exists() && !dir.join(".report-partial").exists());
 }
@@ -225,9 +233,9 @@ fn something_in_the_way_leaves_no_index() {
 #[test]
 fn a_folder_that_cannot_be_staged_keeps_the_old_report() {
     let folder = tempfile::tempdir().unwrap();
-    write(&report(), &figures(), folder.path()).unwrap();
+    write(&report(), &figures(), folder.path(), Pictures::Beside).unwrap();
     let broken = [("noh".to_owned(), "no svg".into())].into();
-    let error = write(&report(), &broken, folder.path()).unwrap_err();
+    let error = write(&report(), &broken, folder.path(), Pictures::Beside).unwrap_err();
     assert!(matches!(error, ReportError::Picture { .. }));
     assert!(folder.path().join("index.html").exists());
 }

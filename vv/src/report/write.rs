@@ -1,6 +1,6 @@
 //! The report as a folder that is either whole or has no `index.html`.
 
-use super::model::{Block, Drawing, Report};
+use super::model::{Block, Drawing, Pictures, Report};
 use super::outline::{outline, valid};
 use super::{ReportError, csv, html, markdown};
 use crate::plots::svg_to_png;
@@ -31,8 +31,9 @@ pub fn write(
     report: &Report,
     figures: &BTreeMap<String, Drawing>,
     dir: &Path,
+    pictures: Pictures,
 ) -> Result<(), ReportError> {
-    let files = render(report, figures)?;
+    let files = render(report, figures, pictures)?;
     let stage = dir.join(STAGE);
     create(&stage)?;
     let written = fill(&stage, &files).and_then(|()| place(&stage, dir, &files));
@@ -44,9 +45,10 @@ pub fn write(
 fn render(
     report: &Report,
     figures: &BTreeMap<String, Drawing>,
+    pictures: Pictures,
 ) -> Result<BTreeMap<String, Vec<u8>>, ReportError> {
     let mut files = BTreeMap::new();
-    files.insert(INDEX.to_owned(), html(report, figures)?.into_bytes());
+    files.insert(INDEX.to_owned(), html(report, figures, pictures)?.into_bytes());
     files.insert("report.md".to_owned(), markdown(report).into_bytes());
     for (id, drawing) in figures {
         match drawing {

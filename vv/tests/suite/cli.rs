@@ -76,6 +76,31 @@ fn overrides_reach_the_run() {
     assert!(fine["provenance"]["command"].as_str().expect("a command").contains("--set cfl=0.15"));
 }
 
+/// A key that the scene has no use for is told, one that it has is not.
+#[test]
+fn overrides_that_change_nothing_are_told() {
+    let args = ["run", "kolsky", "--n", "21", "--set", "sound_speed=total", "--set", "cfl=0.2"];
+    let said = said(folder().path(), &args);
+    assert_eq!(said.code, Some(0), "{}", said.err);
+    assert_eq!(
+        said.err,
+        "note: `--set sound_speed=total` changes nothing in this run: an elastic solid has one speed of \
+         sound\n"
+    );
+}
+
+/// The record says which density ran, whichever option chose it, and a case named twice runs once.
+#[test]
+fn records_say_what_ran() {
+    let folder = folder();
+    let args = ["run", "noh", "--n", "20", "--json", "--set", "density=kernel"];
+    let value: Value = serde_json::from_str(&said(folder.path(), &args).out).expect("JSON");
+    assert_eq!(value["density"], "kernel");
+    let twice = ["vv", "heat-chain", "heat-chain", "--level", "quick", "--out", "r"];
+    let said = said(folder.path(), &twice);
+    assert!(said.err.contains(" runs of heat-chain;"), "{}", said.err);
+}
+
 /// What is said to wrong input.
 #[test]
 fn wrong_input_is_refused() {
@@ -108,6 +133,12 @@ fn wrong_input_is_refused() {
         refusal(&["run", "noh", "--set", "cfl=nan"]),
         refusal(&["run", "noh", "--set", "cfl"]),
         refusal(&["run", "noh", "--set", "clf=0.1"]),
+        refusal(&["run", "noh", "--set", "visc_linear=1e9"]),
+        refusal(&["run", "planar-impact", "--set", "visc_linear=1e9"]),
+        refusal(&["run", "planar-impact", "--set", "visc_hourglass=5"]),
+        refusal(&["run", "planar-impact", "--set", "bodies=3"]),
+        refusal(&["run", "planar-impact", "--set", "bodies.0.cells=5"]),
+        refusal(&["run", "planar-impact", "--set", "materials.0.eos=5"]),
         refusal(&["run", "noh", "--set", "heating=sideways"]),
         refusal(&["run", "noh", "--set", "bodies.7.particles=3"]),
         refusal(&["run", "noh", "--preset", "papr"]),
@@ -193,6 +224,9 @@ fn list_shows_a_case_and_the_keys() {
     let (values, _) = key(&keys, "materials.0.failure.spall");
     assert_eq!(values, ["materials.0.failure.spall", "0.0088", "0.0088", "Mbar"]);
     assert!(key(&keys, "release").1.ends_with("One of: steps, crossings."));
+    let flat = keys.split_whitespace().collect::<Vec<_>>().join(" ");
+    let idle = "collapsing pyramids; zero for none. Changes nothing under `paper`: it acts where";
+    assert!(flat.contains(idle), "{keys}");
 }
 
 /// `run` shows what is wanted beside its numbers, and judges only what is claimed.

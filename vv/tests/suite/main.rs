@@ -11,6 +11,7 @@ mod long_runs;
 mod mapped;
 mod names;
 mod planar_impact;
+mod readme;
 mod report;
 mod solids;
 mod space_output;

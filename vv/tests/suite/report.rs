@@ -70,6 +70,27 @@ fn report_is_complete_and_repeatable() {
     assert_eq!(check.err, "error: not what the records give: report.md\n");
 }
 
+/// Cases without a record are named as not run, and not counted.
+#[test]
+fn cases_that_were_not_run_are_not_counted() {
+    let (folder, ran) = report();
+    assert!(ran.out.contains(" 0 failed, "), "{}", ran.out);
+    let page = std::fs::read_to_string(folder.path().join("r/report.md")).expect("the report");
+    let all = whipple_vv::cases::ALL.len();
+    let summary = format!("{} cases were not run, and are not counted", all - 2);
+    assert!(page.contains(&summary), "{summary}");
+    let named = page.lines().find(|line| line.contains("Not run, so that")).expect("their names");
+    assert!(named.contains("long-rod") && !named.contains("heat-chain"), "{named}");
+    let cases = ["heat-chain", "uniform-collapse"].map(crate::common::case);
+    let must =
+        |claim: &&whipple_vv::claims::Claim| claim.weight == whipple_vv::claims::Weight::Must;
+    let claims: usize = cases.iter().map(|case| case.claims().iter().filter(must).count()).sum();
+    assert!(page.contains(&format!(" of {claims} required claims hold")), "{claims}");
+    let again = said(folder.path(), &["report", "--out", "r"]);
+    let [said_first, said_again] = [&ran.out, &again.out].map(|out| out.lines().next());
+    assert_eq!(said_first, said_again, "the same counts");
+}
+
 /// A record that is cut, of another format, or with a wrong value is refused by name and place.
 #[test]
 fn broken_records_are_refused() {
@@ -168,7 +189,14 @@ fn pictures_are_kept_and_checked() {
     }
     let [page, text] = ["index.html", "report.md"].map(read);
     let [page, text] = [page, text].map(|bytes| String::from_utf8(bytes).expect("text"));
-    assert!(page.contains("A hot chain.") && page.contains("data:image/png;base64,"));
+    assert!(page.contains("A hot chain.") && page.contains("src=\"figures/chain.png\""));
+    assert_eq!(report(&["--single-file"]).code, Some(0));
+    let whole = String::from_utf8(read("index.html")).expect("text");
+    assert!(whole.contains("data:image/png;base64,") && !whole.contains("\"figures/"));
+    assert_eq!(report(&["--check", "--single-file"]).code, Some(0));
+    let other = report(&["--check"]);
+    assert_eq!((other.code, other.err.contains("index.html")), (Some(1), true));
+    assert_eq!(report(&[]).code, Some(0));
     assert!(text.contains("![A hot chain.](figures/chain.png)"));
     std::fs::write(folder.path().join("r/figures/chain.png"), "other").expect("a picture");
     let check = report(&["--check"]);

@@ -25,6 +25,11 @@ fn bad_scenes_are_named() {
         refused(|s| s.method.heating = Heating::Printed),
         refused(|s| s.method.cfl = 0.0),
         refused(|s| s.method.visc_quad = -1.0),
+        refused(|s| s.method.visc_linear = 1e9),
+        refused(|s| s.method.visc_hourglass = 1.5),
+        refused(|s| s.method.centring = 20.0),
+        refused(|s| s.method.balance = f64::NAN),
+        refused(|s| s.method.contact_tolerance = 0.5),
         refused(|s| s.method.contact_reach = 1.4),
         refused(|s| s.method.release = Release::Crossings(0.0)),
         refused(|s| {
@@ -51,4 +56,15 @@ fn bad_scenes_are_named() {
         }),
     ];
     insta::assert_snapshot!(messages.join("\n"));
+}
+
+/// A step that is less than a billionth of the run has collapsed before it began.
+#[test]
+fn steps_without_end_have_collapsed() {
+    let mut scene = rod(4, 8, [8, 4, 8]);
+    scene.stop_time = 1e9;
+    let mut simulation = Simulation::new(&scene).expect("a scene");
+    let error = simulation.step(1e9).expect_err("a billion steps");
+    assert_eq!(error.kind(), "time step collapsed", "{error}");
+    assert_eq!(simulation.time(), 0.0);
 }
