@@ -266,6 +266,7 @@ impl PairList {
     #[must_use]
     pub fn bytes(&self) -> usize {
         let slots: usize = self.slots.iter().map(|slot| held(&slot.pairs)).sum();
+        let slots = slots + held(&self.slots) + held(&self.blocks);
         let slots = slots + self.blocks.iter().map(Candidates::bytes).sum::<usize>();
         let lists = held(&self.pairs) + held(&self.batch) + self.joiner.bytes();
         self.grid.bytes() + self.motion.bytes() + slots + lists

@@ -97,7 +97,7 @@ impl Motion {
     pub(super) fn bytes(&self) -> usize {
         let levels: usize =
             self.levels.iter().map(|level| held(&level.places) + held(&level.moves)).sum();
-        self.sorter.bytes() + held(&self.start) + levels
+        self.sorter.bytes() + held(&self.start) + held(&self.levels) + levels
     }
 
     /// Sets the limits for the list to come.
