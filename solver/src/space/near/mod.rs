@@ -273,6 +273,7 @@ impl PairList {
     #[must_use]
     pub fn bytes(&self) -> usize {
         let found: usize = self.finders.iter().map(|finder| finder.lock().bytes()).sum();
+        let found = found + held(&self.finders);
         let lists = held(&self.pairs) + held(&self.batch) + self.joiner.bytes();
         self.grid.bytes() + self.motion.bytes() + self.sorter.bytes() + found + lists
     }

@@ -99,7 +99,8 @@ impl Motion {
     pub(super) fn bytes(&self) -> usize {
         let levels: usize =
             self.levels.iter().map(|level| held(&level.places) + held(&level.moves)).sum();
-        held(&self.runs) + held(&self.start) + held(&self.spare) + levels
+        let all = held(&self.runs) + held(&self.start) + held(&self.spare);
+        all + held(&self.levels) + levels
     }
 
     /// Sets the limits for the list to come.

@@ -879,7 +879,7 @@ impl Plain {
     }
 
     /// The spring of a point on the faces of a body round its node nearest to a particle; and where it ends
-    /// on their rim, round the corner there as well, if it is near enough to matter.
+    /// on their rim, round the corner there as well.
     fn nearest_spring(
         &self,
         own: &[(usize, f64)],
@@ -901,9 +901,8 @@ impl Plain {
             let inside = near.face.iter().any(|&(i, share)| i == node && share > 0.0);
             let next = near.face.iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
             node = next.0;
-            let far = near.z > self.length(self.elements[near.element].body);
             best = Some(near);
-            if inside || far {
+            if inside {
                 return best;
             }
         }
