@@ -319,17 +319,18 @@ impl Simulation {
     }
 
     /// Time, and what the next step's length depends on.
-    fn clock(&self) -> [f64; 7] {
-        let Self { time, dt, kick, first_dt, allowed, demand, .. } = self;
-        [*time, *dt, *kick, *first_dt, allowed.sound, allowed.density, demand.rate]
+    fn clock(&self) -> [f64; 8] {
+        let Self { time, dt, kick, first_dt, free_dt, allowed, demand, .. } = self;
+        [*time, *dt, *kick, *first_dt, *free_dt, allowed.sound, allowed.density, demand.rate]
     }
 
     fn set_clock(&mut self, clock: &[f64]) {
-        let Ok([time, dt, kick, first_dt, sound, density, rate]) = <[f64; 7]>::try_from(clock)
+        let Ok([time, dt, kick, first, free, sound, density, rate]) = <[f64; 8]>::try_from(clock)
         else {
             return;
         };
-        (self.time, self.dt, self.kick, self.first_dt) = (time, dt, kick, first_dt);
+        (self.time, self.dt, self.kick) = (time, dt, kick);
+        (self.first_dt, self.free_dt) = (first, free);
         (self.allowed.sound, self.allowed.density) = (sound, density);
         self.demand.rate = rate;
     }

@@ -54,6 +54,8 @@ pub struct Simulation {
     /// Length of the last kick.
     pub(super) kick: f64,
     pub(super) first_dt: f64,
+    /// Length of the last drift, had it not been to land on a time.
+    pub(super) free_dt: f64,
     /// A step below this has collapsed, whatever the first one was.
     smallest_step: f64,
     /// Work of the particles on the elements' shear and tension so far.
@@ -128,6 +130,7 @@ impl Simulation {
             dt: 0.0,
             kick: 0.0,
             first_dt: 0.0,
+            free_dt: 0.0,
             smallest_step: SMALLEST_STEP * scene.stop_time,
             element_work: 0.0,
             element_heat: 0.0,
@@ -307,10 +310,11 @@ impl Simulation {
         let elements = if rate > 0.0 { 1.0 / rate } else { f64::INFINITY };
         let mut dt = (self.method.cfl * sound.min(elements)).min(self.allowed.density);
         if self.dt > 0.0 {
-            dt = dt.min(GROWTH * self.dt);
+            dt = dt.min(GROWTH * self.free_dt);
         } else {
             self.first_dt = dt;
         }
+        self.free_dt = dt;
         let floor = (COLLAPSED * self.first_dt).max(self.smallest_step);
         if dt.is_nan() || dt < floor {
             let particle = self.mesh.pieces[self.allowed.piece].range.start;
