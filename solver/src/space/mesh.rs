@@ -100,6 +100,8 @@ pub struct Group {
     pub has_beyond: [Mask; 8],
     /// Lanes that had none beyond some corner at the start: the surface of the body.
     pub bare: Mask,
+    /// Those of them with none beyond more than four: edges of the body.
+    pub light: Mask,
     /// Coordinates, bit by bit, in which that element is a mirror image.
     pub mirrored: [u8; 8],
     /// Effective plastic strain.
@@ -604,6 +606,7 @@ impl Group {
             beyond: [0; 8],
             has_beyond: [0; 8],
             bare: 0,
+            light: 0,
             mirrored: [0; 8],
             strain: F8::ZERO,
             flow: F8::splat(solid.first_flow()),
@@ -644,7 +647,11 @@ impl Group {
             }
             self.beyond[corner] = first.unwrap_or(self.centre);
         }
-        self.bare = !self.has_beyond.iter().fold(Mask::MAX, |all, has| all & has);
+        for lane in 0..self.lanes {
+            let missing = self.has_beyond.iter().filter(|has| *has >> lane & 1 == 0).count();
+            self.bare |= u8::from(missing > 0) << lane;
+            self.light |= u8::from(missing > 4) << lane;
+        }
     }
 
     /// Forgets elements beyond the corners that are no volume any more.

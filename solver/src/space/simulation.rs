@@ -293,7 +293,7 @@ impl Simulation {
         let [rate, heat] = self.surfaces.push(
             (&self.mesh, &self.contacts),
             columns,
-            (&self.method, self.dt),
+            (&self.method, self.dt.max(self.free_dt)),
             (&mut self.sums, &mut self.touched, &mut self.active),
         );
         self.demand.rate = self.demand.rate.max(rate);

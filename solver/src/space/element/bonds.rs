@@ -3,7 +3,7 @@
 use super::symmetric::Symmetric;
 use super::{CENTRE, Laws, Read, V3, dot, sub};
 use crate::space::cells::Cells;
-use crate::space::lanes::Lanes;
+use crate::space::lanes::{Lanes, Mask};
 use crate::space::mesh::Group;
 
 /// Steepness of the damping of receding bonds: it is whole from where the closing neighbours, over the
@@ -55,11 +55,39 @@ impl<F: Lanes> Seen<'_, F> {
     }
 }
 
-/// What turns `sum nu n n^T` of a cell into rates at which its corners and centroid, moving against each
-/// other, are damped: each has half of its mass.
-#[inline(always)]
-fn per_mass<F: Lanes, const MAPPED: bool>(cells: &Cells<'_, MAPPED>) -> F {
-    cells.volume_as(|volume| 4.0 / (cells.body.rho_0 * volume))
+/// Viscosity of the bonds of a cell by direction.
+struct Damping<F> {
+    /// Of those that act, `sum nu n n^T`: what damps the centroid.
+    own: Symmetric<F>,
+    /// Of all eight, `sum n n^T`, and the largest `nu` that acts: what may damp a corner, which has a bond in each
+    /// of its cells.
+    all: Symmetric<F>,
+    most: F,
+}
+
+impl<F: Lanes> Damping<F> {
+    #[inline(always)]
+    fn none() -> Self {
+        Self { own: Symmetric::zero(), all: Symmetric::zero(), most: F::zero() }
+    }
+
+    /// Adds a bond `r` with the viscosity `nu`, and the inverse square of its length.
+    #[inline(always)]
+    fn add(&mut self, r: &V3<F>, nu: F, inverse: F) {
+        self.own.add(r, nu * inverse);
+        self.all.add(r, inverse);
+        self.most = self.most.max(nu);
+    }
+
+    /// Rates at which corners and centroid, moving against each other, are damped: each has half of the mass
+    /// of a cell, and a bond takes from either what it takes from both. Corners on edges of a body are as much
+    /// lighter as they have fewer bonds, which then point one way.
+    #[inline(always)]
+    fn rates<const MAPPED: bool>(&self, light: Mask, cells: &Cells<'_, MAPPED>) -> Symmetric<F> {
+        let corner = self.most * F::select(light, F::splat(3.0), F::splat(1.0));
+        let both = self.own.plus(&self.all.times(corner));
+        both.times(cells.volume_as(|volume| 2.0 / (cells.body.rho_0 * volume)))
+    }
 }
 
 impl Group {
@@ -78,7 +106,7 @@ impl Group {
             0.5 * method.heat_coeff * (body.rho_0 * area) * body.eos.c_v() * laws.dt
         });
         let conducts = method.heat_coeff * laws.dt > 0.0;
-        let mut damping = Symmetric::zero();
+        let mut damping = Damping::none();
         for slot in 0..8 {
             let (r, w) = seen.bond(slot);
             let square = dot(&r, &r).max(F::splat(f64::MIN_POSITIVE));
@@ -94,14 +122,14 @@ impl Group {
             let nu = (pair + speed * (2.0 * method.visc_quad)) * half;
             let bond = nu * approach * inverse;
             self.bonds[slot] = bond.pack();
-            damping.add(&r, nu.keep(speed.gt(pair * QUIET)) * inverse);
+            damping.add(&r, nu.keep(speed.gt(pair * QUIET)), inverse);
             loads.pull(slot, &r, bond);
             if conducts {
                 let difference = seen.theta[slot] - seen.theta[CENTRE];
                 loads.conduct(slot, (pair * difference).keep(near) * conduct);
             }
         }
-        damping.times(per_mass(cells))
+        damping.rates(self.light, cells)
     }
 
     /// Viscosity on what neighbouring jumps along the diagonal do not explain, and the heat flux in
@@ -121,7 +149,7 @@ impl Group {
             .bond_area_as(0, |area| method.heat_coeff * area * body.eos.c_v() * laws.dt / area);
         let conducts = method.heat_coeff * laws.dt > 0.0;
         let rho: [F; 9] = self.gather(read.rho);
-        let mut damping = Symmetric::zero();
+        let mut damping = Damping::none();
         for slot in 0..8 {
             let (r, w) = seen.bond(slot);
             // The centroid of a dead element may lie on a corner.
@@ -158,13 +186,13 @@ impl Group {
             let nu = mass * F::select(closing, shock, sound * method.visc_expansion);
             let bond = nu * jump * inverse;
             self.bonds[slot] = bond.pack();
-            damping.add(&r, nu.keep(speed.abs().gt(sound * QUIET)) * inverse);
+            damping.add(&r, nu.keep(speed.abs().gt(sound * QUIET)), inverse);
             loads.pull(slot, &r, bond);
             if conducts {
                 let difference = seen.theta[slot] - seen.theta[CENTRE];
                 loads.conduct(slot, mass * speed.max(zero) * (difference * conduct));
             }
         }
-        damping.times(per_mass(cells))
+        damping.rates(self.light, cells)
     }
 }

@@ -3,13 +3,10 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use whipple_solver::method::{Density, Viscosity};
-use whipple_solver::space::Simulation;
 use whipple_solver::space::mapping::Mapping;
-use whipple_solver::space::output::Particle;
-use whipple_solver::space::restart::Values;
 use whipple_solver::space::scene::{Body, Flow, Scene, Shape, Side, Turn};
 
-use super::scenes::{block, body, gas, march, mirror, scene, start, steel, strong};
+use super::scenes::{block, body, gas, march, mirror, push, scene, start, steel, strong};
 
 /// A box between two corners, of these cells, mapped.
 fn mapped(material: &str, [low, high]: [[f64; 3]; 2], cells: [usize; 3], by: Mapping) -> Body {
@@ -39,26 +36,6 @@ fn without_viscosity(scene: &mut Scene) {
     scene.method.visc_quad = 0.0;
     scene.method.visc_expansion = 0.0;
     scene.method.heat_coeff = 0.0;
-}
-
-/// Sets every particle moving.
-fn push(simulation: &mut Simulation, velocity: impl Fn(&Particle) -> [f64; 3]) {
-    let moving: Vec<_> =
-        simulation.all_particles().map(|p| (p.id as usize, velocity(&p))).collect();
-    let mut sections = simulation.sections();
-    for section in &mut sections {
-        let axis = ["state.vx", "state.vy", "state.vz"].iter().position(|n| *n == section.name);
-        match (&mut section.values, axis) {
-            (Values::F64(column), Some(axis)) => {
-                moving.iter().for_each(|(i, v)| column[*i] += v[axis]);
-            }
-            (Values::U8(flags), _) if section.name.ends_with("awake") => flags.fill(1),
-            (Values::U8(flags), _) if section.name.ends_with("active") => flags.fill(1),
-            _ => {}
-        }
-    }
-    simulation.restore(&sections).expect("its own sections");
-    simulation.start_books();
 }
 
 #[test]

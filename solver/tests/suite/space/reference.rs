@@ -627,6 +627,7 @@ impl Plain {
         // Limited viscosity and the heat flux in shocks.
         let area = 0.75 * solid.volume.powf(2.0 / 3.0);
         let mut ways = scaled(&ONE, 0.0);
+        let (mut all, mut most) = (ways, 0.0f64);
         let bonds: [f64; 8] = std::array::from_fn(|slot| {
             let [n, x, opposite] = [slot, 8, 7 - slot].map(|k| &self.particles[slots[k]]);
             let apart = sub(now[slot], now[8]);
@@ -657,7 +658,9 @@ impl Plain {
                 };
             if jump.abs() > 1e-9 * sound {
                 ways = plus(&ways, nu, &outer(along));
+                most = most.max(nu);
             }
+            all = plus(&all, 1.0, &outer(along));
             forces[slot] = add(forces[slot], times(along, nu * jump));
             forces[8] = sub(forces[8], times(along, nu * jump));
             let flux = method.heat_coeff * solid.c_v * rho * area * jump.max(0.0);
@@ -668,7 +671,9 @@ impl Plain {
         });
         self.elements[e].bonds = bonds;
         let mass = 0.5 * solid.material.density * solid.volume;
-        let mut damping = scaled(&ways, 2.0 / mass);
+        let missing = self.elements[e].beyond.iter().filter(|b| b.is_none()).count();
+        let corner = if missing > 4 { 3.0 * most } else { most };
+        let mut damping = scaled(&plus(&ways, corner, &all), 1.0 / mass);
         let drag = self.drag(e);
         let weights = self.hourglass_weights(&now, body);
         let modes = hourglass_modes();

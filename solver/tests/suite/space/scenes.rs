@@ -3,6 +3,8 @@
 use whipple_solver::method::Preset;
 use whipple_solver::space::Simulation;
 use whipple_solver::space::method::Method;
+use whipple_solver::space::output::Particle;
+use whipple_solver::space::restart::Values;
 use whipple_solver::space::scene::{
     Body, EosData, Failure, Flow, GammaLaw, Hold, Material, Scene, Shape, Side, Strength, Turn,
     Wall,
@@ -164,4 +166,24 @@ pub fn bits(simulation: &Simulation) -> Vec<u64> {
         .all_elements()
         .flat_map(|e| [e.strain, e.damage, e.equivalent_stress, f64::from(u8::from(e.live))]);
     particles.chain(elements).chain([simulation.time()]).map(f64::to_bits).collect()
+}
+
+/// Sets every particle moving.
+pub fn push(simulation: &mut Simulation, velocity: impl Fn(&Particle) -> [f64; 3]) {
+    let moving: Vec<_> =
+        simulation.all_particles().map(|p| (p.id as usize, velocity(&p))).collect();
+    let mut sections = simulation.sections();
+    for section in &mut sections {
+        let axis = ["state.vx", "state.vy", "state.vz"].iter().position(|n| *n == section.name);
+        match (&mut section.values, axis) {
+            (Values::F64(column), Some(axis)) => {
+                moving.iter().for_each(|(i, v)| column[*i] += v[axis]);
+            }
+            (Values::U8(flags), _) if section.name.ends_with("awake") => flags.fill(1),
+            (Values::U8(flags), _) if section.name.ends_with("active") => flags.fill(1),
+            _ => {}
+        }
+    }
+    simulation.restore(&sections).expect("its own sections");
+    simulation.start_books();
 }

@@ -2,9 +2,10 @@
 //! viscosity and without, in cells that are longer or shorter along one axis than along the others.
 
 use whipple_solver::space::mapping::Mapping;
+use whipple_solver::space::output::Particle;
 use whipple_solver::space::scene::{Body, Scene, Shape, Side};
 
-use super::scenes::{body, copper, gas, march, mirror, scene, start, steel, strong};
+use super::scenes::{block, body, copper, gas, march, mirror, push, scene, start, steel, strong};
 
 /// Cells along each axis.
 const CELLS: [usize; 3] = [6, 5, 4];
@@ -72,4 +73,30 @@ fn noise_dies_out_in_long_and_flat_cells() {
         }
     }
     assert!(grown.is_empty(), "{grown:#?}");
+}
+
+/// The lightest particle of a body has one bond alone, and the whole viscosity of that: pushed in, it is
+/// stopped, and not thrown back, in the first step.
+#[test]
+fn a_corner_that_is_pushed_in_is_not_thrown_back() {
+    for visc_linear in [0.7, 5.0] {
+        for speed in [1e-3, 0.1, 1.0] {
+            let mut scene = scene(vec![copper()], vec![block("copper", [4; 3], 0.1)]);
+            scene.method.visc_linear = visc_linear;
+            let mut simulation = start(&scene);
+            let corner = simulation
+                .all_particles()
+                .min_by(|p, q| {
+                    let sum = |p: &Particle| p.position.iter().sum::<f64>();
+                    sum(p).total_cmp(&sum(q))
+                })
+                .expect("particles")
+                .id;
+            push(&mut simulation, |p| [if p.id == corner { speed * 0.394 } else { 0.0 }; 3]);
+            march(&mut simulation, 1);
+            let [after, ..] = simulation.particle(corner).velocity;
+            println!("c0 {visc_linear}, {speed} c: {:.3}", after / (speed * 0.394));
+            assert!(after >= 0.0, "{after}");
+        }
+    }
 }
