@@ -149,7 +149,7 @@ mod tests {
     #[test]
     fn idle_keys_move_no_bit() {
         let mut tried = 0;
-        for of in 0..SCENES.len() {
+        for (of, name) in SCENES.iter().enumerate() {
             let plain = scene(of);
             let both = of_presets(|_| plain.clone());
             let numbers_of_plain = numbers(of, plain.clone());
@@ -160,7 +160,7 @@ mod tests {
                 let set = format!("{}={}", key.name, other(&key.values[1], &key.choices));
                 let changed = apply(plain.clone(), std::slice::from_ref(&set)).expect("a value");
                 assert_ne!(changed, plain, "{set}");
-                assert_eq!(numbers(of, changed), numbers_of_plain, "{:?}: {set}", SCENES[of]);
+                assert_eq!(numbers(of, changed), numbers_of_plain, "{name:?}: {set}");
                 tried += 1;
             }
         }
