@@ -101,14 +101,16 @@ pub struct Said {
     pub code: Option<i32>,
     /// Standard output.
     pub out: String,
-    /// Standard error.
+    /// Standard error, but for lines of progress: how many there are is up to the machine.
     pub err: String,
 }
 
 impl From<Output> for Said {
     fn from(output: Output) -> Self {
         let text = |bytes| String::from_utf8(bytes).expect("text is UTF-8");
-        Self { code: output.status.code(), out: text(output.stdout), err: text(output.stderr) }
+        let err = text(output.stderr);
+        let lines = err.split_inclusive('\n').filter(|line| !line.contains(" M particle-steps/s"));
+        Self { code: output.status.code(), out: text(output.stdout), err: lines.collect() }
     }
 }
 
