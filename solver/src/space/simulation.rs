@@ -312,7 +312,8 @@ impl Simulation {
         if self.dt > 0.0 {
             dt = dt.min(GROWTH * self.free_dt);
         } else {
-            self.first_dt = dt;
+            // In cold gas nothing limits it.
+            self.first_dt = dt.min(self.smallest_step / SMALLEST_STEP);
         }
         self.free_dt = dt;
         let floor = (COLLAPSED * self.first_dt).max(self.smallest_step);

@@ -5,7 +5,7 @@ use super::kinematics::{gradient, spread};
 use super::{V3, cross, dot};
 use crate::space::cells::Cells;
 use crate::space::hourglass::{corners, modes, resist};
-use crate::space::lanes::{Lanes, Mask};
+use crate::space::lanes::Lanes;
 use crate::space::mesh::Group;
 use crate::space::method::Method;
 
@@ -41,8 +41,9 @@ pub(super) fn coefficient<F: Lanes, const MAPPED: bool>(
 pub(super) struct Warp<F> {
     /// Amplitudes of position, through the inverse of the deformation: along the lattice axes, by mode.
     back: [V3<F>; 4],
-    /// Where there is such an inverse.
-    regular: Mask,
+    /// One over how much lighter a mode is than in a cube, where the deformation has an inverse; nothing
+    /// elsewhere. The drag goes with it: however warped a cell, its modes are damped at the same rate.
+    inertia: F,
 }
 
 impl<F: Lanes> Warp<F> {
@@ -70,7 +71,16 @@ impl<F: Lanes> Warp<F> {
                 *back = dot(across, warp) * inverse;
             }
         }
-        Self { back, regular: jacobian.gt(least) }
+        let mut added = F::zero();
+        for axis in 0..3 {
+            // Eight times the sum of the squares of the weights of the gradient.
+            let weights = cells.gradient_squared::<F>(axis) * 8.0;
+            for back in &back {
+                added += back[axis] * back[axis] * weights;
+            }
+        }
+        let inertia = (F::splat(1.0) / (added + 1.0)).keep(jacobian.gt(least));
+        Self { back, inertia }
     }
 
     /// Rates of the amplitudes, but for what a linear field makes of them.
@@ -100,7 +110,7 @@ impl<F: Lanes> Warp<F> {
         (cells, coefficient): (&Cells<'_, MAPPED>, F),
         force: &mut [V3<F>; 9],
     ) {
-        let coefficient = coefficient.keep(self.regular);
+        let coefficient = coefficient * self.inertia;
         let mut flow = [[F::zero(); 3]; 3];
         for (rates, back) in rates.iter().zip(&self.back) {
             for (flow, back) in flow.iter_mut().zip(back) {
@@ -128,27 +138,18 @@ impl<F: Lanes> Warp<F> {
         for (made, mean) in made.iter().zip(mean) {
             sum += dot(made, mean);
         }
-        sum * coefficient.keep(self.regular)
-    }
-
-    /// A bound of the rate at which a mode is damped with this coefficient. Half of the mass of a cell is at
-    /// its corners; the part of the weights that undoes a linear field adds to them in a warped cell.
-    #[inline(always)]
-    pub(super) fn rate<const MAPPED: bool>(&self, coefficient: F, cells: &Cells<'_, MAPPED>) -> F {
-        let mut added = F::zero();
-        for axis in 0..3 {
-            // Eight times the sum of the squares of the weights of the gradient.
-            let weights = cells.gradient_squared::<F>(axis) * 8.0;
-            for back in &self.back {
-                added += back[axis] * back[axis] * weights;
-            }
-        }
-        // Twice, since the two parts are not orthogonal in mapped cells.
-        let bound = (added + 1.0) * 2.0;
-        let rate = coefficient * cells.volume_as::<F>(|volume| 2.0 / (cells.body.rho_0 * volume));
-        (rate * bound).keep(self.regular)
+        sum * coefficient * self.inertia
     }
 }
+
+/// A bound of the rate at which modes are damped with this coefficient: half of the mass of a cell is at its
+/// corners.
+#[inline(always)]
+pub(super) fn rate<F: Lanes, const MAPPED: bool>(coefficient: F, cells: &Cells<'_, MAPPED>) -> F {
+    // Twice, since the weights of modes and of the gradient are not orthogonal in mapped cells.
+    coefficient * cells.volume_as::<F>(|volume| 4.0 / (cells.body.rho_0 * volume))
+}
+
 #[inline(always)]
 fn amplitudes<F: Lanes>(u: &[V3<F>; 9]) -> [V3<F>; 4] {
     let mut out = [[F::zero(); 3]; 4];

@@ -208,7 +208,7 @@ impl Group {
             if let Some(coefficient) = drag::coefficient(&laws.method, own, || sound[CENTRE]) {
                 let warp = Warp::new(&u, &y, cells);
                 warp.push(&warp.rates(&v, cells), (cells, coefficient), &mut loads.force);
-                damping.widen(warp.rate(coefficient, cells));
+                damping.widen(drag::rate(coefficient, cells));
             }
             if self.stiff.is_some() {
                 let of = (&seen, cells, &laws.method);

@@ -674,13 +674,10 @@ impl Plain {
         let missing = self.elements[e].beyond.iter().filter(|b| b.is_none()).count();
         let corner = if missing > 4 { 3.0 * most } else { most };
         let mut damping = scaled(&plus(&ways, corner, &all), 1.0 / mass);
-        let drag = self.drag(e);
         let weights = self.hourglass_weights(&now, body);
-        let modes = hourglass_modes();
-        let undone = weights.iter().zip(&modes).map(|(weights, mode)| {
-            weights.iter().zip(mode).map(|(w, m)| (w - m) * (w - m)).sum::<f64>()
-        });
-        let held = 2.0 * drag / mass * (1.0 + 8.0 * undone.sum::<f64>());
+        let whole = self.drag(e);
+        let drag = whole / lighter(&weights);
+        let held = 2.0 * whole / mass;
         damping = plus(&damping, held, &ONE);
         for weights in weights {
             let rate = amplitude(&weights, |slot| self.particles[slots[slot]].v);
@@ -1095,8 +1092,8 @@ impl Plain {
             let (_, now) = self.points(e);
             let slots = self.slots(e);
             let mean = slots.map(|i| self.particles[i].mean);
-            let power: f64 = self
-                .hourglass_weights(&now, self.elements[e].body)
+            let modes = self.hourglass_weights(&now, self.elements[e].body);
+            let power: f64 = modes
                 .iter()
                 .map(|mode| {
                     let before = |p: &Particle| sub(times(p.mean, 2.0), p.v);
@@ -1104,7 +1101,7 @@ impl Plain {
                     dot(made, amplitude(mode, |slot| mean[slot]))
                 })
                 .sum();
-            let warmth = kick * self.drag(e) * power;
+            let warmth = kick * self.drag(e) / lighter(&modes) * power;
             for (slot, &i) in slots.iter().enumerate() {
                 self.particles[i].heat += if slot == 8 { 0.5 } else { 0.0625 } * warmth;
             }
@@ -1237,6 +1234,14 @@ fn hourglass_modes() -> [[f64; 8]; 4] {
             0.125 * axes.iter().map(|&axis| sign(slot, axis)).product::<f64>()
         })
     })
+}
+
+/// How much lighter hourglass modes with these weights are than those of a cube.
+fn lighter(weights: &[[f64; 8]]) -> f64 {
+    let undone = weights.iter().zip(hourglass_modes()).map(|(weights, mode)| {
+        weights.iter().zip(mode).map(|(w, m)| (w - m) * (w - m)).sum::<f64>()
+    });
+    1.0 + 8.0 * undone.sum::<f64>()
 }
 
 /// Sum of a field of the corners with these weights.
