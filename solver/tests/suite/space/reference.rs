@@ -806,17 +806,20 @@ impl Plain {
         for start in 0..9 {
             let (mut u, mut v) =
                 (0.1 + 0.4 * f64::from(start % 3), 0.1 + 0.4 * f64::from(start / 3));
-            // The distance does not tell a point that is still 1e-8 of a side away: only the iteration does.
+            // The distance does not tell a point that is still 1e-8 of a side away: only the iteration does,
+            // which from some starts wanders before it finds one.
+            let mut step = f64::INFINITY;
             for _ in 0..40 {
                 let (p, q) = (add(sub(b, a), times(twist, v)), add(sub(d, a), times(twist, u)));
                 let r = sub(sub(x, a), add(times(sub(b, a), u), times(q, v)));
                 let mixed = dot(p, q) - dot(r, twist);
                 let whole = dot(p, p) * dot(q, q) - mixed * mixed;
                 let (along, across) = (dot(r, p), dot(r, q));
-                u += (along * dot(q, q) - across * mixed) / whole;
-                v += (across * dot(p, p) - along * mixed) / whole;
+                let by = (along * dot(q, q) - across * mixed) / whole;
+                let other = (across * dot(p, p) - along * mixed) / whole;
+                (u, v, step) = (u + by, v + other, by.abs() + other.abs());
             }
-            if (0.0..=1.0).contains(&u) && (0.0..=1.0).contains(&v) {
+            if step < 1e-12 && (0.0..=1.0).contains(&u) && (0.0..=1.0).contains(&v) {
                 candidates.push(bilinear([u, v]));
             }
         }
