@@ -69,10 +69,10 @@ impl Case for LongRod {
          does not convert. No spall strength: none was found for these alloys; \
          `references/materials.toml` has 1.7 to 2.0 GPa of a 93 % tungsten alloy. `wide` has twice the \
          plate, `viscosity-0.3`, `viscosity-1` and `viscosity-2` other linear coefficients, \
-         `yield-as-printed` the yield function of Eqs. (39)-(43) as it is printed; `hourglass-on` has \
-         the drag against hourglass modes that solids without strength have, `centring-on` the motion \
-         of centroids against their corners, with 0.05 of the stiffness of a cell. No constant was \
-         fitted to this case."
+         `step-0.8` and `step-0.7` shorter steps, `yield-as-printed` the yield function of Eqs. \
+         (39)-(43) as it is printed; `hourglass-on` has the drag against hourglass modes that solids \
+         without strength have, `centring-on` the motion of centroids against their corners, with \
+         0.05 of the stiffness of a cell. No constant was fitted to this case."
     }
 
     fn source(&self) -> &'static str {

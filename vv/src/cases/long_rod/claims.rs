@@ -2,7 +2,7 @@
 
 use whipple_solver::method::Preset;
 
-use super::problem::{EXCHANGED, ID, SIZES, VARIANTS, WIDE};
+use super::problem::{EXCHANGED, ID, SIZES, STEPS, VARIANTS, WIDE, words};
 use super::published::KNOWN;
 use super::{kernel_key, key, varied_key};
 use crate::cases::parts::control;
@@ -78,6 +78,21 @@ pub(super) fn all() -> Vec<Claim> {
             Quantity::Change(wide, plain, known.norm),
             Wanted::WithinZero(known.edge),
         ));
+    }
+    let step = Claims { weight: Weight::Aim, source: "as wanted of twice the plate", ..issue };
+    for variant in STEPS {
+        for known in &KNOWN {
+            let [short, plain] = [variant, ""].map(|v| varied_key(Preset::Default, v));
+            out.push(step.claim(
+                format!(
+                    "{}: change of the residual {}, n = 5, `default`",
+                    words(variant),
+                    known.name
+                ),
+                Quantity::Change(short, plain, known.norm),
+                Wanted::WithinZero(known.edge),
+            ));
+        }
     }
     let answers = KNOWN.each_ref().map(|known| (known.norm, known.name));
     out.extend(control::claims(ID, &key(Preset::Default, SIZES[0]), &answers));

@@ -125,6 +125,13 @@ fn validation_by_hand() {
         assert_relative_eq!(found.expect("a number"), wanted, max_relative = 1e-9);
     }
     assert_eq!(says, "no error of the model is resolved");
+    // Answers over other steps add their scatter.
+    for (variant, length) in STEPS.into_iter().zip([6.16, 6.04]) {
+        records.insert(record(varied_key(Preset::Default, variant), [length, 1.46]));
+    }
+    let (values, _) = shown(&records);
+    let numerical = (0.5 * band).hypot(0.12 / 12.0_f64.sqrt());
+    assert_relative_eq!(values[3].expect("a number"), numerical, max_relative = 1e-9);
 }
 
 /// The runs of the full level fill every table, and nothing is said to be missing.
