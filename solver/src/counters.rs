@@ -22,4 +22,7 @@ pub struct Counters {
     /// Particles, summed over the steps, whose density the lowest one of their equation of state held.
     #[serde(default)]
     pub floored: u64,
+    /// Particles, summed over the steps, that the least volume of a cell held from getting denser.
+    #[serde(default)]
+    pub packed: u64,
 }

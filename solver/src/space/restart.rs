@@ -262,9 +262,10 @@ impl Simulation {
                     }
                 }
                 Values::U64(counts) => {
-                    let piece = counts.last().copied().unwrap_or_default();
-                    if piece >= self.mesh.pieces.len() as u64 {
-                        return bad(piece, "the number of a piece");
+                    let first = counts.last().copied().unwrap_or_default();
+                    let all = self.derived.rho.len() as u64;
+                    if first.saturating_add(LANES as u64) > all {
+                        return bad(first, "the number of a particle, before seven others");
                     }
                 }
                 Values::F64(_) => {}
@@ -388,8 +389,8 @@ impl Simulation {
         (h.momentum_scale, h.angular_scale) = (b[24], b[25]);
     }
 
-    /// Counters, and the piece that decides the next step.
-    fn counts(&self) -> [u64; 9] {
+    /// Counters, and the first of the particles that decide the next step.
+    fn counts(&self) -> [u64; 10] {
         let c = &self.counters;
         [
             c.steps,
@@ -400,12 +401,13 @@ impl Simulation {
             c.pairs,
             c.kernel_evaluations,
             c.floored,
-            self.allowed.piece as u64,
+            c.packed,
+            self.allowed.first as u64,
         ]
     }
 
     fn set_counts(&mut self, counts: &[u64]) {
-        let Ok(c) = <[u64; 9]>::try_from(counts) else { return };
+        let Ok(c) = <[u64; 10]>::try_from(counts) else { return };
         self.counters = crate::counters::Counters {
             steps: c[0],
             particle_steps: c[1],
@@ -415,7 +417,8 @@ impl Simulation {
             pairs: c[5],
             kernel_evaluations: c[6],
             floored: c[7],
+            packed: c[8],
         };
-        self.allowed.piece = c[8] as usize;
+        self.allowed.first = c[9] as usize;
     }
 }

@@ -5,6 +5,7 @@ use super::contacts::Contacts;
 use super::dispatch::Instructions;
 use super::element::{Demand, Laws, Read};
 use super::kernel::Kernel;
+use super::lanes::LANES;
 use super::lattice::cross;
 use super::ledger::Holdings;
 use super::mesh::{Group, Mesh};
@@ -318,7 +319,7 @@ impl Simulation {
         self.free_dt = dt;
         let floor = (COLLAPSED * self.first_dt).max(self.smallest_step);
         if dt.is_nan() || dt < floor {
-            let particle = self.mesh.pieces[self.allowed.piece].range.start;
+            let particle = self.soonest();
             let value = dt;
             let limiter = if elements < sound {
                 "viscosity and stiffness of elements; sound crosses soonest"
@@ -414,9 +415,9 @@ impl Simulation {
             enter(Phase::Kernel);
             let rho = &mut self.derived.rho;
             self.counters.kernel_evaluations += self.contacts.sum_density(&self.mesh, rho);
-            let Allowed { sane, floored, .. } = self.allowed;
+            let Allowed { sane, floored, packed, .. } = self.allowed;
             self.respond(Stage::State(self.dt));
-            self.allowed = Allowed { sane, floored, ..self.allowed };
+            self.allowed = Allowed { sane, floored, packed, ..self.allowed };
         }
         self.touched.fill(false);
     }
@@ -473,6 +474,15 @@ impl Simulation {
         self.counters.particle_steps += self.moving() as u64;
         self.counters.pairs += self.contacts.pairs() as u64;
         self.counters.floored += u64::from(self.allowed.floored);
+        self.counters.packed += u64::from(self.allowed.packed);
+    }
+
+    /// Of the eight particles that decide the step the one that sound crosses soonest.
+    fn soonest(&self) -> usize {
+        let Derived { rho, sound, .. } = &self.derived;
+        let haste = |i: usize| rho[i] * sound[i];
+        let first = self.allowed.first;
+        (first..first + LANES).max_by(|&i, &j| haste(i).total_cmp(&haste(j))).unwrap_or(first)
     }
 
     /// Names the particle that is no longer a number.

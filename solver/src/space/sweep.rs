@@ -26,20 +26,28 @@ const AHEAD: usize = 8 * LANES;
 pub struct Allowed {
     /// By sound.
     pub sound: f64,
-    /// Piece that decides.
-    pub piece: usize,
+    /// First of the eight particles that decide.
+    pub first: usize,
     /// By the change of density.
     pub density: f64,
     /// Whether everything is a number.
     pub sane: bool,
     /// Particles that the lowest density of their equation of state stopped from getting thinner.
     pub floored: u32,
+    /// Particles that stopped getting denser since their volume was all but nothing.
+    pub packed: u32,
 }
 
 impl Allowed {
     /// By nothing.
-    pub const ANYTHING: Self =
-        Self { sound: f64::INFINITY, piece: 0, density: f64::INFINITY, sane: true, floored: 0 };
+    pub const ANYTHING: Self = Self {
+        sound: f64::INFINITY,
+        first: 0,
+        density: f64::INFINITY,
+        sane: true,
+        floored: 0,
+        packed: 0,
+    };
 
     /// The stricter.
     #[must_use]
@@ -49,9 +57,10 @@ impl Allowed {
         Self {
             sound: self.sound.min(other.sound),
             density: self.density.min(other.density),
-            piece: if first { self.piece } else { other.piece },
+            first: if first { self.first } else { other.first },
             sane: self.sane && other.sane,
             floored: self.floored + other.floored,
+            packed: self.packed + other.packed,
         }
     }
 }
@@ -159,7 +168,7 @@ impl Particles<'_> {
     pub fn respond<F: Lanes>(&self, columns: &mut AllSlices<'_>, at: usize, i: usize) -> Allowed {
         let piece = self.mesh.piece_of(i);
         if !self.active[piece] {
-            return Allowed { piece, ..Allowed::ANYTHING };
+            return Allowed::ANYTHING;
         }
         let own = Eight {
             body: &self.mesh.bodies[self.mesh.pieces[piece].body],
@@ -171,10 +180,10 @@ impl Particles<'_> {
         let (now, volume, ended) = match self.stage {
             Stage::Whole(kick, dt) => own.end_step(columns, kick, dt, false),
             Stage::Moved(kick, dt) => own.end_step(columns, kick, dt, true),
-            Stage::State(dt) => (own.state(columns, dt), F::zero(), (true, 0)),
+            Stage::State(dt) => (own.state(columns, dt), F::zero(), Allowed::ANYTHING),
         };
-        let (sane, floored) = ended;
-        Allowed { sane, floored, piece, ..own.evaluate(columns, &now, (volume, self.volumes)) }
+        let Allowed { sound, density, .. } = own.evaluate(columns, &now, (volume, self.volumes));
+        Allowed { sound, density, first: i, ..ended }
     }
 }
 
@@ -197,7 +206,7 @@ struct Now<F> {
 impl<F: Lanes> Eight<'_, F> {
     /// Ends the last step, Eqs. (36), (58)-(59), (74) and (76); the density of held particles follows their
     /// volumes instead of (36). Returns what is known at the time of the positions, the change of the
-    /// volume, whether all is finite, and how many are too thin.
+    /// volume, and whether all is finite and within the least and the greatest density.
     #[inline(always)]
     fn end_step(
         &self,
@@ -205,9 +214,10 @@ impl<F: Lanes> Eight<'_, F> {
         kick: f64,
         dt: f64,
         keep_rates: bool,
-    ) -> (Now<F>, F, (bool, u32)) {
+    ) -> (Now<F>, F, Allowed) {
         let at = self.at;
         let least = F::splat(self.body.eos.rarest() * self.body.rho_0);
+        let most = F::splat(self.body.rho_0 / (SMALLEST * self.body.solid.least));
         let volume_rate = F::load(sums.volume_rate, at);
         let mut rho_rate = F::load(sums.rho_rate, at) - F::load(derived.dilate, at) * volume_rate;
         let alone = self.ratio.lt(F::splat(1e-9)) & !self.touched;
@@ -220,8 +230,8 @@ impl<F: Lanes> Eight<'_, F> {
         let grip = F::load(derived.grip, at);
         let gain = (F::load(sums.heat, at) - grip * volume_rate * kick) / self.mass;
         let rho = F::load(state.rho, at) + rho_rate * kick;
-        let floored = rho.lt(least).count_ones();
-        let rho = rho.max(least);
+        let (floored, packed) = (rho.lt(least).count_ones(), rho.gt(most).count_ones());
+        let rho = rho.max(least).min(most);
         let u = F::load(state.u, at) + gain;
         let u_rate = if kick > 0.0 { gain * (1.0 / kick) } else { F::zero() };
         rho.store(state.rho, at);
@@ -254,8 +264,9 @@ impl<F: Lanes> Eight<'_, F> {
         let sane = (finite * 0.0).sum() == 0.0;
         // Volumes, not densities, change evenly in a step: what expands does not end at zero.
         let change = (rho_rate * (0.5 * dt) / rho).min(F::splat(0.5));
-        let rho = (rho / (F::splat(1.0) - change)).max(least);
-        (Now { rho, u: u + u_rate * (0.5 * dt), rho_rate }, volume, (sane, floored))
+        let rho = (rho / (F::splat(1.0) - change)).max(least).min(most);
+        let now = Now { rho, u: u + u_rate * (0.5 * dt), rho_rate };
+        (now, volume, Allowed { sane, floored, packed, ..Allowed::ANYTHING })
     }
 
     /// The same at a density known, with the rates that [`Stage::Moved`] has left.

@@ -226,8 +226,11 @@ pub(super) fn text(bounds: &Bounds, record: &RunRecord) -> String {
         row("updates per CPU second", sig(space.updates_per_cpu_second, 3));
         row("bytes per particle", sig(space.bytes_per_particle, 3));
     }
-    if let Some(floored) = record.counters.map(|c| c.floored).filter(|&floored| floored > 0) {
-        row("held at the least density", floored.to_string());
+    let counters = record.counters.unwrap_or_default();
+    for (name, held) in [("least", counters.floored), ("greatest", counters.packed)] {
+        if held > 0 {
+            row(&format!("held at the {name} density"), held.to_string());
+        }
     }
     row("steps", record.steps.to_string());
     row("particle-steps", record.particle_steps.to_string());

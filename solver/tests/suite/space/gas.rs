@@ -66,6 +66,21 @@ fn gas_thins_without_a_floor() {
     assert!(simulation.balance().energy_drift() < 1e-12);
 }
 
+/// A density that no volume of a live cell can have is held at the greatest one, and counted.
+#[test]
+fn a_density_without_volume_is_held_and_counted() {
+    let scene = scene(vec![gas()], vec![Body { energy: 1.0, ..block("gas", [4, 4, 4], 0.25) }]);
+    let mut simulation = start(&scene);
+    march(&mut simulation, 3);
+    assert_eq!(simulation.counters().packed, 0);
+    let mut sections = simulation.sections();
+    change(&mut sections, "state.rho", |column| column[0] = 1e12);
+    simulation.restore(&sections).expect("sections of its own");
+    march(&mut simulation, 3);
+    let densest = simulation.all_particles().map(|p| p.rho).fold(0.0, f64::max);
+    assert!(simulation.counters().packed > 0 && densest <= 2000.0, "{densest}");
+}
+
 /// What the least density of a solid holds is counted.
 #[test]
 fn the_floor_of_a_solid_is_counted() {

@@ -1169,7 +1169,7 @@ impl Plain {
                 p.u_rate = gain / kick;
                 p.u += gain;
                 p.rho_rate = rate;
-                p.rho = (p.rho + rate * kick).max(0.3 * rho_0);
+                p.rho = (p.rho + rate * kick).clamp(0.3 * rho_0, 10.0 * rho_0);
             }
             // Over the velocity of the drift.
             let ahead = p.growth_rate - p.growth_rate_before;
@@ -1182,7 +1182,7 @@ impl Plain {
             p.contact_rate = 0.0;
 
             let change = (0.5 * dt * p.rho_rate / p.rho).min(0.5);
-            p.rho_now = (p.rho / (1.0 - change)).max(0.3 * rho_0);
+            p.rho_now = (p.rho / (1.0 - change)).clamp(0.3 * rho_0, 10.0 * rho_0);
             (p.pressure, p.sound, p.theta) = eos(solid, p.rho_now, p.u + 0.5 * dt * p.u_rate);
             let reference = p.mass / rho_0;
             p.dilate = if p.live > 0 {
