@@ -1169,10 +1169,11 @@ impl Plain {
                 p.u_rate = gain / kick;
                 p.u += gain;
                 p.rho_rate = rate;
-                p.rho = (p.rho + rate * kick).max(0.3 * rho_0);
+                // Half a drift with the velocity before, half one with that after.
+                let uneven = p.dilate * ahead * (dt - kick);
+                p.rho = (p.rho + rate * kick - uneven).max(0.3 * rho_0);
             }
             // Over the velocity of the drift.
-            let ahead = p.growth_rate - p.growth_rate_before;
             p.rho_rate -= p.dilate * ahead;
             p.u_rate -= pressure_work * ahead / p.mass;
             let growth = p.growth + (p.growth_rate + ahead) * dt;
@@ -1180,6 +1181,7 @@ impl Plain {
             (p.force, p.heat) = ([0.0; 3], 0.0);
             (p.growth, p.growth_rate, p.growth_rate_before) = (0.0, 0.0, 0.0);
             p.contact_rate = 0.0;
+            let ahead = p.growth_rate - p.growth_rate_before;
 
             let change = (0.5 * dt * p.rho_rate / p.rho).min(0.5);
             p.rho_now = (p.rho / (1.0 - change)).max(0.3 * rho_0);
