@@ -283,7 +283,7 @@ impl Simulation {
         self.element_heat += self.demand.heat;
         let columns = (&self.state, &self.derived);
         enter(Phase::Contacts);
-        self.contacts.push(
+        let contacts = self.contacts.push(
             &self.mesh,
             columns,
             (&self.method, self.dt),
@@ -296,7 +296,7 @@ impl Simulation {
             (&self.method, self.dt.max(self.free_dt)),
             (&mut self.sums, &mut self.touched, &mut self.active),
         );
-        self.demand.rate = self.demand.rate.max(rate);
+        self.demand.rate = self.demand.rate.max(contacts).max(rate);
         self.spring_heat += heat;
     }
 

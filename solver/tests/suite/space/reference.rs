@@ -126,6 +126,8 @@ pub struct Particle {
     growth_rate_before: f64,
     contact_rate: f64,
     touched: bool,
+    /// Rate at which contacts damp it.
+    damped: f64,
     exposed: bool,
 }
 
@@ -756,7 +758,7 @@ impl Plain {
         }
         let push = [0, 1].map(|k| row[k] * p[k].mass * p[k].pressure / p[k].rho_now.powi(2));
         let approach = -dot(r, sub(self.velocity(pair[0]), self.velocity(pair[1]))) / distance;
-        let mut drag = 0.0;
+        let (mut drag, mut nu) = (0.0, 0.0);
         if near && approach > 0.0 {
             let impedance = [0, 1].map(|k| {
                 let volume = p[k].mass / solid[k].material.density;
@@ -765,7 +767,7 @@ impl Plain {
             let sound = 0.5 * (p[0].sound + p[1].sound);
             let slope = 0.5 * (solid[0].s + solid[1].s);
             let steep = self.method.visc_quad * slope * approach / sound;
-            let nu = 0.5
+            nu = 0.5
                 * (impedance[0] + impedance[1])
                 * (steep + steep.hypot(self.method.visc_linear));
             drag = nu * approach / distance;
@@ -783,6 +785,8 @@ impl Plain {
     fn surface(&self, body: usize) -> Vec<(usize, [usize; 4])> {
         let live = |e: &&Element| e.live && e.body == body;
         let mut all = Vec::new();
+            p.damped += nu / p.mass;
+            self.rate = self.rate.max(p.damped);
         for (k, e) in self.elements.iter().enumerate().filter(|(_, e)| live(e)) {
             for face in faces() {
                 let face = face.map(|slot| e.corners[slot]);
@@ -1180,8 +1184,7 @@ impl Plain {
             p.displacement = add(p.displacement, times(p.v, dt));
             (p.force, p.heat) = ([0.0; 3], 0.0);
             (p.growth, p.growth_rate, p.growth_rate_before) = (0.0, 0.0, 0.0);
-            p.contact_rate = 0.0;
-            let ahead = p.growth_rate - p.growth_rate_before;
+            (p.contact_rate, p.damped) = (0.0, 0.0);
 
             let change = (0.5 * dt * p.rho_rate / p.rho).min(0.5);
             p.rho_now = (p.rho / (1.0 - change)).max(0.3 * rho_0);
