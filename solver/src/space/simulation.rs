@@ -26,6 +26,9 @@ const GROWTH: f64 = 1.05;
 /// Longest step over the time in which sound crosses a particle, or the cell of a body at rest.
 pub(super) const CROSSING: f64 = 1.0 / 3.0;
 
+/// Smallest part of an allowed step that is taken after a longer one.
+const LEAST_PART: f64 = 0.5;
+
 /// Smallest time step over the first one.
 const COLLAPSED: f64 = 1e-6;
 
@@ -54,7 +57,7 @@ pub struct Simulation {
     /// Length of the last kick.
     pub(super) kick: f64,
     pub(super) first_dt: f64,
-    /// Length of the last drift, had it not been to land on a time.
+    /// Length that the last drift was allowed, whatever time it was to land on or step it followed.
     pub(super) free_dt: f64,
     /// A step below this has collapsed, whatever the first one was.
     smallest_step: f64,
@@ -327,6 +330,9 @@ impl Simulation {
             };
             return Err(StepError::TimeStep { particle, time: self.time, value, floor, limiter });
         }
+        // The kick also takes half of the last drift: where that was much longer, a shorter one follows.
+        let bearable = 2.0 * dt / self.method.cfl - self.dt;
+        let dt = dt.min(bearable.max(LEAST_PART * dt));
         let left = until - self.time;
         // The last two steps share what is left, so that none is tiny.
         Ok(if dt >= left {

@@ -240,6 +240,8 @@ pub struct Plain {
     contacts: Vec<Contact>,
     springs: Vec<Spring>,
     pub dt: f64,
+    /// What the last step could have been, had the one before not been longer.
+    free: f64,
     allowed: [f64; 2],
     rate: f64,
     /// Contacts of all steps so far, and deaths.
@@ -322,6 +324,7 @@ impl Plain {
             contacts: Vec::new(),
             springs: Vec::new(),
             dt: 0.0,
+            free: 0.0,
             allowed: [f64::INFINITY; 2],
             rate: 0.0,
             touches: 0,
@@ -1018,7 +1021,7 @@ impl Plain {
                 self.rate = self.rate.max((stiff * inertia).sqrt() / s.stand);
             }
             // What is met within two steps slows them down before.
-            let ahead = if self.dt > 0.0 { 2.0 * self.dt } else { solid.edge / solid.fast };
+            let ahead = if self.dt > 0.0 { 2.0 * self.free } else { solid.edge / solid.fast };
             let mut drag = 0.0;
             if approach > 0.0 && s.stand * (s.z - 1.0) < approach * ahead {
                 let mean = |pick: &dyn Fn(&Particle) -> f64| -> f64 {
@@ -1058,7 +1061,10 @@ impl Plain {
             dt = dt.min(solid.edge / (3.0 * solid.fast));
         }
         dt = (self.method.cfl * dt.min(1.0 / self.rate)).min(self.allowed[1]);
-        if self.dt > 0.0 { dt.min(1.05 * self.dt) } else { dt }
+        self.free = if self.dt > 0.0 { dt.min(1.05 * self.free) } else { dt };
+        // So that the mean of two steps is a stable one, unless that takes less than half.
+        let mean = 2.0 * self.free / self.method.cfl - self.dt;
+        self.free.min(mean.max(0.5 * self.free))
     }
 
     /// Coefficient of the drag against the hourglass modes of an element.
