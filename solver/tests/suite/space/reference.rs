@@ -575,8 +575,9 @@ impl Plain {
             element.stress = scaled(&element.stress, (1.0 - element.damage) / whole.max(1e-300));
         }
         let intact = 1.0 - element.damage;
+        let outer = |v: V| matrix(|i, j| v[i] * v[j]);
         let mut forces = [[0.0; 3]; 9];
-        let mut squared: f64 = 0.0;
+        let mut shear = NOTHING;
         if solid.mu > 0.0 {
             let strain = scaled(&plus(&scaled(&c, q), -1.0, &ONE), 0.5);
             let (old, from) = (element.stress, element.plastic);
@@ -591,9 +592,15 @@ impl Plain {
                 let pull: V = std::array::from_fn(|d| dot(element.piola[d], gradients[slot]));
                 forces[slot] = sub(forces[slot], times(pull, solid.volume));
             }
-            squared = stretch * 32.0 / 3.0 * intact * solid.mu
+            let planes = 32.0 / 3.0 * intact * solid.mu / solid.material.density;
+            let planes = q * q * planes / solid.edge.powi(2);
+            let change = (q * q * contract(&c, &c) - 3.0).max(0.0) * 2.0 / 9.0 * intact * solid.mu
                 / solid.material.density
-                / solid.edge.powi(2);
+                / volume.powi(2);
+            shear = scaled(&product(&f, &transposed(&f)), planes);
+            for area in &areas {
+                shear = plus(&shear, 4.0 * change, &outer(*area));
+            }
         }
         let mut heat: [f64; 9] = [freed / 16.0; 9];
         heat[8] = 0.5 * freed;
@@ -618,12 +625,11 @@ impl Plain {
             }
         }
         let fastest = slots.iter().map(|&i| self.particles[i].sound).fold(0.0, f64::max);
-        let outer = |v: V| matrix(|i, j| v[i] * v[j]);
         let sum = areas.iter().fold(scaled(&ONE, 0.0), |sum, &area| plus(&sum, 1.0, &outer(area)));
         let mut squares = scaled(&sum, 2.0 * (fastest / volume).powi(2));
         let bare = self.elements[e].beyond.iter().any(Option::is_none);
-        squared += if bare { trace(&squares) } else { 0.0 };
-        squares = plus(&squares, squared, &ONE);
+        let surface = if bare { trace(&squares) } else { 0.0 };
+        squares = plus(&plus(&squares, surface, &ONE), 1.0, &shear);
         if opening.iter().any(|&open| open > 0.0) {
             let stiff = intact * solid.bulk / solid.material.density / solid.volume.powi(2);
             squares = plus(&squares, 4.0 * stiff, &sum);
@@ -779,6 +785,8 @@ impl Plain {
         for (k, i) in pair.into_iter().enumerate() {
             let p = &mut self.particles[i];
             p.touched = true;
+            p.damped += nu / p.mass;
+            self.rate = self.rate.max(p.damped);
             p.force = if k == 0 { add(p.force, force) } else { sub(p.force, force) };
         }
         self.contacts.push(Contact { pair, r, row, push, drag });
@@ -788,8 +796,6 @@ impl Plain {
     fn surface(&self, body: usize) -> Vec<(usize, [usize; 4])> {
         let live = |e: &&Element| e.live && e.body == body;
         let mut all = Vec::new();
-            p.damped += nu / p.mass;
-            self.rate = self.rate.max(p.damped);
         for (k, e) in self.elements.iter().enumerate().filter(|(_, e)| live(e)) {
             for face in faces() {
                 let face = face.map(|slot| e.corners[slot]);
@@ -1174,6 +1180,7 @@ impl Plain {
             if p.live == 0 && !p.touched && p.pressure > 0.0 && p.rho_now > 0.8 * rho_0 {
                 rate = -0.07 * p.sound / solid.length * p.rho_now;
             }
+            let ahead = p.growth_rate - p.growth_rate_before;
             if kick > 0.0 {
                 let gain = (p.heat - pressure_work * p.growth_rate * kick) / p.mass;
                 p.u_rate = gain / kick;
