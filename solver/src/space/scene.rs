@@ -376,10 +376,12 @@ impl Method {
             let wanted = "in three dimensions there is `pair` alone: half to each particle";
             return Err(SceneError::new("method.heating", self.heating.name(), wanted));
         }
-        positive("method.cfl", self.cfl)?;
+        if !(self.cfl > 0.0 && self.cfl <= 1.0) {
+            return Err(SceneError::new("method.cfl", self.cfl, "it must be in (0, 1]"));
+        }
         not_negative("method.limiter", self.limiter)?;
         let spread = (STRONGEST, STRONGEST_WHY);
-        let dragged = (1.0, "the time step does not know how fast warped cells are dragged");
+        let dragged = (1.0, "modes stop before sound has crossed half of their cell");
         let locked = (10.0, "a mode that is so much stiffer than its cell cannot move");
         for (key, value, most) in [
             ("method.visc_linear", self.visc_linear, spread),

@@ -27,6 +27,9 @@ const GROWTH: f64 = 1.05;
 /// Longest step over the time in which sound crosses a particle, or the cell of a body at rest.
 pub(super) const CROSSING: f64 = 1.0 / 3.0;
 
+/// Smallest part of an allowed step that is taken after a longer one.
+const LEAST_PART: f64 = 0.5;
+
 /// Smallest time step over the first one.
 const COLLAPSED: f64 = 1e-6;
 
@@ -55,7 +58,7 @@ pub struct Simulation {
     /// Length of the last kick.
     pub(super) kick: f64,
     pub(super) first_dt: f64,
-    /// Length of the last drift, had it not been to land on a time.
+    /// Length that the last drift was allowed, whatever time it was to land on or step it followed.
     pub(super) free_dt: f64,
     /// A step below this has collapsed, whatever the first one was.
     smallest_step: f64,
@@ -284,7 +287,7 @@ impl Simulation {
         self.element_heat += self.demand.heat;
         let columns = (&self.state, &self.derived);
         enter(Phase::Contacts);
-        self.contacts.push(
+        let contacts = self.contacts.push(
             &self.mesh,
             columns,
             (&self.method, self.dt),
@@ -297,7 +300,7 @@ impl Simulation {
             (&self.method, self.dt.max(self.free_dt)),
             (&mut self.sums, &mut self.touched, &mut self.active),
         );
-        self.demand.rate = self.demand.rate.max(rate);
+        self.demand.rate = self.demand.rate.max(contacts).max(rate);
         self.spring_heat += heat;
     }
 
@@ -328,6 +331,9 @@ impl Simulation {
             };
             return Err(StepError::TimeStep { particle, time: self.time, value, floor, limiter });
         }
+        // The kick also takes half of the last drift: where that was much longer, a shorter one follows.
+        let bearable = 2.0 * dt / self.method.cfl - self.dt;
+        let dt = dt.min(bearable.max(LEAST_PART * dt));
         let left = until - self.time;
         // The last two steps share what is left, so that none is tiny.
         Ok(if dt >= left {

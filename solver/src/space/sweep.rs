@@ -229,7 +229,10 @@ impl<F: Lanes> Eight<'_, F> {
         let ahead = volume_rate - F::load(sums.volume_rate_before, at);
         let grip = F::load(derived.grip, at);
         let gain = (F::load(sums.heat, at) - grip * volume_rate * kick) / self.mass;
-        let rho = F::load(state.rho, at) + rho_rate * kick;
+        // Half of a kick belongs to the drift before it and half to that after it: where they differ in length
+        // as in velocity, the mean of both is not what the volume does.
+        let uneven = F::load(derived.dilate, at) * ahead * (dt - kick);
+        let rho = F::load(state.rho, at) + (rho_rate * kick - uneven);
         let (floored, packed) = (rho.lt(least).count_ones(), rho.gt(most).count_ones());
         let rho = rho.max(least).min(most);
         let u = F::load(state.u, at) + gain;

@@ -29,6 +29,8 @@ pub struct Active {
     push: [f64; 2],
     /// Viscous force over separation.
     drag: f64,
+    /// Closing rate of `r^2 / 2` before the kick.
+    closing: f64,
     /// Heat flux from the first to the second.
     flux: f64,
 }
@@ -42,6 +44,12 @@ impl Active {
             || self.push != [0.0; 2]
             || self.drag != 0.0
             || self.flux != 0.0
+    }
+
+    /// Viscous force over the speed of approach.
+    fn coefficient(&self) -> f64 {
+        let square = self.r[0] * self.r[0] + self.r[1] * self.r[1] + self.r[2] * self.r[2];
+        self.drag * square / self.closing
     }
 }
 
@@ -88,14 +96,15 @@ impl Contacts {
         2 * pairs.len() as u64
     }
 
-    /// Forces, conduction and the marks of touched particles.
+    /// Forces, conduction and the marks of touched particles. Returns the inverse of the longest step that
+    /// their viscosity bears: of all contacts of the particle that is damped the fastest.
     pub fn push(
         &mut self,
         mesh: &Mesh,
         (state, derived): (&State, &Derived),
         (method, dt): (&Method, f64),
         (sums, touched, active): (&mut Sums, &mut [bool], &mut [bool]),
-    ) {
+    ) -> f64 {
         let kernel = self.kernel.as_ref();
         let view = View { mesh, state, derived, method, kernel, volumes: self.volumes };
         let widest = (method.reach() * self.longest).powi(2);
@@ -116,7 +125,19 @@ impl Contacts {
                 }
             }
         });
+        self.damping.clear();
+        let mut rate = 0.0f64;
         for contact in self.blocks.iter().flatten() {
+            if contact.drag > 0.0 {
+                // Nothing is damped in most scenes before something breaks.
+                self.damping.resize(members.len(), 0.0);
+                let coefficient = contact.coefficient();
+                for i in contact.pair.map(|k| k as usize) {
+                    let damping = &mut self.damping[self.index[i] as usize];
+                    *damping += coefficient / mesh.mass(i);
+                    rate = rate.max(*damping);
+                }
+            }
             let [i, j] = contact.pair.map(|k| k as usize);
             let force = contact.push[0] + contact.push[1] + contact.drag;
             let f = contact.r.map(|r| force * r);
@@ -135,6 +156,7 @@ impl Contacts {
             touched[i] = true;
             touched[j] = true;
         }
+        rate
     }
 
     /// Density rates (36), pressure work (59) and viscous heat, the first term of Eq. (60) given half to each,
@@ -208,17 +230,12 @@ impl View<'_> {
             row,
             push: [per(0, i), per(1, j)],
             drag: 0.0,
+            closing: self.closing(pair, r, bodies),
             flux: 0.0,
         };
         if near {
             let impedance = [self.impedance(i, bodies[0]), self.impedance(j, bodies[1])];
-            let drift = self.mesh.drift_of(bodies[0], bodies[1]);
-            let v = [
-                self.state.vx[i] - self.state.vx[j] + drift[0],
-                self.state.vy[i] - self.state.vy[j] + drift[1],
-                self.state.vz[i] - self.state.vz[j] + drift[2],
-            ];
-            let approach = -(r[0] * v[0] + r[1] * v[1] + r[2] * v[2]) / distance;
+            let approach = active.closing / distance;
             if approach > 0.0 {
                 let slope = 0.5 * (body[0].slope + body[1].slope);
                 let sound = 0.5 * (self.sound(i, bodies[0]) + self.sound(j, bodies[1]));
@@ -236,6 +253,19 @@ impl View<'_> {
             active.flux = transfer * (self.derived.theta[i] - self.derived.theta[j]);
         }
         Some(active)
+    }
+
+    /// Closing rate of `r^2 / 2`.
+    #[inline(always)]
+    fn closing(&self, [i, j]: [u32; 2], r: [f64; 3], bodies: [usize; 2]) -> f64 {
+        let (i, j) = (i as usize, j as usize);
+        let drift = self.mesh.drift_of(bodies[0], bodies[1]);
+        let v = [
+            self.state.vx[i] - self.state.vx[j] + drift[0],
+            self.state.vy[i] - self.state.vy[j] + drift[1],
+            self.state.vz[i] - self.state.vz[j] + drift[2],
+        ];
+        -(r[0] * v[0] + r[1] * v[1] + r[2] * v[2])
     }
 
     /// `3/8 W / (zeta^5 L^2)`, Eqs. (35)-(36), at a distance from a particle of contact length `L`.

@@ -1,5 +1,6 @@
 //! Deformation of a cell, Eqs. (14)-(15), and the forces of its shear.
 
+use super::symmetric::Symmetric;
 use super::{CENTRE, V3, cross, dot};
 use crate::space::cells::Cells;
 use crate::space::lanes::{Lanes, Mask, each};
@@ -86,6 +87,8 @@ pub(super) struct Kinematics<F> {
     pub(super) jacobian: F,
     /// `J^(-1/3)`.
     pub(super) root: F,
+    /// What the lattice axes have become, in global axes: `F F^T` is the sum of their squares.
+    axes: [V3<F>; 3],
 }
 
 /// `F^T F`.
@@ -100,7 +103,7 @@ pub(super) fn right_cauchy_green<F: Lanes>(f: &[F; 9]) -> Sym<F> {
 impl<F: Lanes> Kinematics<F> {
     #[inline(always)]
     pub(super) fn new<const MAPPED: bool>(u: &[V3<F>; 9], cells: &Cells<'_, MAPPED>) -> Self {
-        let along = gradient(u, cells);
+        let mut along = gradient(u, cells);
         let axes = &cells.body.lattice.axes;
         let f = each!(k in 9 => {
             let (g, axis) = (&along[k % 3], &axes[k / 3]);
@@ -110,7 +113,13 @@ impl<F: Lanes> Kinematics<F> {
         let (a, b, c) = ([f[0], f[1], f[2]], [f[3], f[4], f[5]], [f[6], f[7], f[8]]);
         let (bc, ca, ab) = (cross(&b, &c), cross(&c, &a), cross(&a, &b));
         let jacobian = dot(&a, &bc);
+        for (along, axis) in along.iter_mut().zip(axes) {
+            for (own, axis) in along.iter_mut().zip(axis) {
+                *own += F::splat(*axis);
+            }
+        }
         Self {
+            axes: along,
             cofactor: [bc[0], bc[1], bc[2], ca[0], ca[1], ca[2], ab[0], ab[1], ab[2]],
             c: right_cauchy_green(&f),
             f,
@@ -133,6 +142,27 @@ impl<F: Lanes> Kinematics<F> {
         let q = self.root * self.root;
         let mean = q * (self.c[0] + self.c[1] + self.c[2]) * (1.0 / 3.0);
         mean * q.max(F::splat(1.0))
+    }
+
+    /// Squares of the frequencies of shear in units of those of an undeformed cell, `J^(-4/3) F F^T`, whatever
+    /// flow has undone of the strain (decision 0020).
+    #[inline(always)]
+    pub(super) fn shear_squared(&self, undeformed: F) -> Symmetric<F> {
+        let q = self.root * self.root;
+        let mut squares = Symmetric::zero();
+        for axis in &self.axes {
+            squares.add(axis, q * q * undeformed);
+        }
+        squares
+    }
+
+    /// What a change of the volume meets of the shear modulus where flow has stretched a cell, beside what it meets in
+    /// an undeformed one: over the modulus, `4/9 (J^(-4/3) C : C - 3)`. Strains of (14)-(15) grow with the square of a
+    /// stretch, from which a change of the volume takes its root.
+    #[inline(always)]
+    pub(super) fn shear_bulk(&self) -> F {
+        let q = self.root * self.root;
+        (q * q * contract(&self.c, &self.c) - 3.0).max(F::zero()) * (4.0 / 9.0)
     }
 
     /// First Piola-Kirchhoff stress of the shear energy (24) by the strain (14)-(16), rows turned to global

@@ -168,16 +168,19 @@ impl Group {
         };
         let mut freed = self.damage(cells, (&opening, held), laws.dt);
         let intact = F::splat(1.0) - F::of(self.damage);
-        let (mut force, mut rate_squared) = if body.solid.mu > 0.0 {
+        let (mut force, shear) = if body.solid.mu > 0.0 {
             freed += self.shear(cells, &motion, (mean, intact, laws.dt));
             let stress = each!(k in 6 => F::of(self.stress[k]));
             // Of planes of nodes, which have half of the mass and move against each other in turns.
             let planes: F =
                 cells.edge_as(|edge| 32.0 / 3.0 * body.solid.mu / (body.rho_0 * edge * edge));
-            (motion.forces(&stress, cells, live), motion.stretch_squared() * planes * intact)
+            let bulk = intact * (body.solid.mu / body.rho_0) * motion.shear_bulk();
+            let squares = motion.shear_squared(planes * intact).plus(&extent.volume_squared(bulk));
+            (motion.forces(&stress, cells, live), squares)
         } else {
-            ([[F::zero(); 3]; 9], F::zero())
+            ([[F::zero(); 3]; 9], Symmetric::zero())
         };
+        let mut rate_squared = F::zero();
         if let Some(glass) = &glass {
             glass.push(&u, intact.keep(live), &mut force);
             rate_squared += glass.rate_squared(cells);
@@ -188,7 +191,7 @@ impl Group {
         let mut loads = Loads { force, heat };
 
         let mut push = each!(k in 6 => -tension(opening[k], intact, body.solid.bulk).keep(live));
-        let mut stiffness = extent.tension_squared(&opening, intact, cells);
+        let mut stiffness = extent.tension_squared(&opening, intact, cells).plus(&shear);
         let mut damping = Symmetric::zero();
         if laws.volumes {
             self.carry((laws, read), &mut push);

@@ -123,11 +123,16 @@ impl<F: Lanes> Extent<F> {
         for sound in &sound[..8] {
             fastest = fastest.max(*sound);
         }
-        // Of three pairs of faces that come doubled.
-        let scale = fastest * fastest * 0.5 / (self.volume * self.volume);
-        let mut squares = self.faces.times(scale);
+        let mut squares = self.volume_squared(fastest * fastest);
         squares.widen(squares.trace().keep(bare));
         squares
+    }
+
+    /// Squares of the frequencies of what resists changes of the volume with this square of a sound speed.
+    #[inline(always)]
+    pub(super) fn volume_squared(&self, speed_squared: F) -> Symmetric<F> {
+        // Of three pairs of faces that come doubled.
+        self.faces.times(speed_squared * 0.5 / (self.volume * self.volume))
     }
 
     /// Squares of the frequencies of tension, where a pyramid is open: twice what pressure has of the same

@@ -126,6 +126,8 @@ pub struct Particle {
     growth_rate_before: f64,
     contact_rate: f64,
     touched: bool,
+    /// Rate at which contacts damp it.
+    damped: f64,
     exposed: bool,
 }
 
@@ -238,6 +240,8 @@ pub struct Plain {
     contacts: Vec<Contact>,
     springs: Vec<Spring>,
     pub dt: f64,
+    /// What the last step could have been, had the one before not been longer.
+    free: f64,
     allowed: [f64; 2],
     rate: f64,
     /// Contacts of all steps so far, and deaths.
@@ -320,6 +324,7 @@ impl Plain {
             contacts: Vec::new(),
             springs: Vec::new(),
             dt: 0.0,
+            free: 0.0,
             allowed: [f64::INFINITY; 2],
             rate: 0.0,
             touches: 0,
@@ -570,8 +575,9 @@ impl Plain {
             element.stress = scaled(&element.stress, (1.0 - element.damage) / whole.max(1e-300));
         }
         let intact = 1.0 - element.damage;
+        let outer = |v: V| matrix(|i, j| v[i] * v[j]);
         let mut forces = [[0.0; 3]; 9];
-        let mut squared: f64 = 0.0;
+        let mut shear = NOTHING;
         if solid.mu > 0.0 {
             let strain = scaled(&plus(&scaled(&c, q), -1.0, &ONE), 0.5);
             let (old, from) = (element.stress, element.plastic);
@@ -586,9 +592,15 @@ impl Plain {
                 let pull: V = std::array::from_fn(|d| dot(element.piola[d], gradients[slot]));
                 forces[slot] = sub(forces[slot], times(pull, solid.volume));
             }
-            squared = stretch * 32.0 / 3.0 * intact * solid.mu
+            let planes = 32.0 / 3.0 * intact * solid.mu / solid.material.density;
+            let planes = q * q * planes / solid.edge.powi(2);
+            let change = (q * q * contract(&c, &c) - 3.0).max(0.0) * 2.0 / 9.0 * intact * solid.mu
                 / solid.material.density
-                / solid.edge.powi(2);
+                / volume.powi(2);
+            shear = scaled(&product(&f, &transposed(&f)), planes);
+            for area in &areas {
+                shear = plus(&shear, 4.0 * change, &outer(*area));
+            }
         }
         let mut heat: [f64; 9] = [freed / 16.0; 9];
         heat[8] = 0.5 * freed;
@@ -613,12 +625,11 @@ impl Plain {
             }
         }
         let fastest = slots.iter().map(|&i| self.particles[i].sound).fold(0.0, f64::max);
-        let outer = |v: V| matrix(|i, j| v[i] * v[j]);
         let sum = areas.iter().fold(scaled(&ONE, 0.0), |sum, &area| plus(&sum, 1.0, &outer(area)));
         let mut squares = scaled(&sum, 2.0 * (fastest / volume).powi(2));
         let bare = self.elements[e].beyond.iter().any(Option::is_none);
-        squared += if bare { trace(&squares) } else { 0.0 };
-        squares = plus(&squares, squared, &ONE);
+        let surface = if bare { trace(&squares) } else { 0.0 };
+        squares = plus(&plus(&squares, surface, &ONE), 1.0, &shear);
         if opening.iter().any(|&open| open > 0.0) {
             let stiff = intact * solid.bulk / solid.material.density / solid.volume.powi(2);
             squares = plus(&squares, 4.0 * stiff, &sum);
@@ -756,7 +767,7 @@ impl Plain {
         }
         let push = [0, 1].map(|k| row[k] * p[k].mass * p[k].pressure / p[k].rho_now.powi(2));
         let approach = -dot(r, sub(self.velocity(pair[0]), self.velocity(pair[1]))) / distance;
-        let mut drag = 0.0;
+        let (mut drag, mut nu) = (0.0, 0.0);
         if near && approach > 0.0 {
             let impedance = [0, 1].map(|k| {
                 let volume = p[k].mass / solid[k].material.density;
@@ -765,7 +776,7 @@ impl Plain {
             let sound = 0.5 * (p[0].sound + p[1].sound);
             let slope = 0.5 * (solid[0].s + solid[1].s);
             let steep = self.method.visc_quad * slope * approach / sound;
-            let nu = 0.5
+            nu = 0.5
                 * (impedance[0] + impedance[1])
                 * (steep + steep.hypot(self.method.visc_linear));
             drag = nu * approach / distance;
@@ -774,6 +785,8 @@ impl Plain {
         for (k, i) in pair.into_iter().enumerate() {
             let p = &mut self.particles[i];
             p.touched = true;
+            p.damped += nu / p.mass;
+            self.rate = self.rate.max(p.damped);
             p.force = if k == 0 { add(p.force, force) } else { sub(p.force, force) };
         }
         self.contacts.push(Contact { pair, r, row, push, drag });
@@ -1014,7 +1027,7 @@ impl Plain {
                 self.rate = self.rate.max((stiff * inertia).sqrt() / s.stand);
             }
             // What is met within two steps slows them down before.
-            let ahead = if self.dt > 0.0 { 2.0 * self.dt } else { solid.edge / solid.fast };
+            let ahead = if self.dt > 0.0 { 2.0 * self.free } else { solid.edge / solid.fast };
             let mut drag = 0.0;
             if approach > 0.0 && s.stand * (s.z - 1.0) < approach * ahead {
                 let mean = |pick: &dyn Fn(&Particle) -> f64| -> f64 {
@@ -1054,7 +1067,10 @@ impl Plain {
             dt = dt.min(solid.edge / (3.0 * solid.fast));
         }
         dt = (self.method.cfl * dt.min(1.0 / self.rate)).min(self.allowed[1]);
-        if self.dt > 0.0 { dt.min(1.05 * self.dt) } else { dt }
+        self.free = if self.dt > 0.0 { dt.min(1.05 * self.free) } else { dt };
+        // So that the mean of two steps is a stable one, unless that takes less than half.
+        let mean = 2.0 * self.free / self.method.cfl - self.dt;
+        self.free.min(mean.max(0.5 * self.free))
     }
 
     /// Coefficient of the drag against the hourglass modes of an element.
@@ -1164,22 +1180,24 @@ impl Plain {
             if p.live == 0 && !p.touched && p.pressure > 0.0 && p.rho_now > 0.8 * rho_0 {
                 rate = -0.07 * p.sound / solid.length * p.rho_now;
             }
+            let ahead = p.growth_rate - p.growth_rate_before;
             if kick > 0.0 {
                 let gain = (p.heat - pressure_work * p.growth_rate * kick) / p.mass;
                 p.u_rate = gain / kick;
                 p.u += gain;
                 p.rho_rate = rate;
-                p.rho = (p.rho + rate * kick).clamp(0.3 * rho_0, 10.0 * rho_0);
+                // Half a drift with the velocity before, half one with that after.
+                let uneven = p.dilate * ahead * (dt - kick);
+                p.rho = (p.rho + rate * kick - uneven).clamp(0.3 * rho_0, 10.0 * rho_0);
             }
             // Over the velocity of the drift.
-            let ahead = p.growth_rate - p.growth_rate_before;
             p.rho_rate -= p.dilate * ahead;
             p.u_rate -= pressure_work * ahead / p.mass;
             let growth = p.growth + (p.growth_rate + ahead) * dt;
             p.displacement = add(p.displacement, times(p.v, dt));
             (p.force, p.heat) = ([0.0; 3], 0.0);
             (p.growth, p.growth_rate, p.growth_rate_before) = (0.0, 0.0, 0.0);
-            p.contact_rate = 0.0;
+            (p.contact_rate, p.damped) = (0.0, 0.0);
 
             let change = (0.5 * dt * p.rho_rate / p.rho).min(0.5);
             p.rho_now = (p.rho / (1.0 - change)).clamp(0.3 * rho_0, 10.0 * rho_0);

@@ -24,6 +24,7 @@ fn bad_scenes_are_named() {
         refused(|s| s.method.integrator = Integrator::SinglePass),
         refused(|s| s.method.heating = Heating::Printed),
         refused(|s| s.method.cfl = 0.0),
+        refused(|s| s.method.cfl = 1.01),
         refused(|s| s.method.visc_quad = -1.0),
         refused(|s| s.method.visc_linear = 1e9),
         refused(|s| s.method.visc_hourglass = 1.5),
