@@ -346,16 +346,22 @@ impl Scene {
         let mut particles = 0usize;
         for (k, body) in self.bodies.iter().enumerate() {
             let key = format!("bodies.{k}");
-            if self.material_index(&body.material).is_none() {
+            let Some(material) = self.material_index(&body.material) else {
                 let wanted = "no material has that name";
                 return Err(SceneError::new(format!("{key}.material"), &body.material, wanted));
-            }
+            };
             particles = particles.saturating_add(body.validate(self.method.balance, &key)?);
             if body.mapping.is_some() && self.method.density != Density::Hybrid {
                 let wanted =
                     "contacts and kernels know equal cells alone: mapped ones need `hybrid`";
                 let given = format!("{:?}", self.method.density);
                 return Err(SceneError::new("method.density", given, wanted));
+            }
+            let gas = matches!(self.materials[material].eos, EosData::IdealGas { .. });
+            if body.mapping.is_some() && !gas && self.method.hourglass > 0.0 {
+                let wanted = "it must be 0 with mapped bodies of solids: this stiffness does not turn with their \
+                              cells; drag (`visc_hourglass_strong`) does";
+                return Err(SceneError::new("method.hourglass", self.method.hourglass, wanted));
             }
         }
         if particles > MAX_PARTICLES {

@@ -181,7 +181,6 @@ fn the_identity_is_the_regular_lattice() {
                 scene.method.visc_quad = 0.0;
                 scene.method.heat_coeff = 0.1;
             }
-            scene.method.hourglass = 0.1;
             scene.method.centring = 0.05;
             scene.method.visc_volume = 1.0;
             scene.walls.push(mirror(0, 0.0, Side::Above));
@@ -259,6 +258,10 @@ fn what_is_no_lattice_is_refused() {
             s.bodies[0].mapping = Some(Mapping::Wrap { radius: 0.475 });
         }),
         refused(&|s| s.method.density = Density::Nonholonomic),
+        refused(&|s| {
+            *s = scene(vec![steel()], vec![tube("steel")]);
+            s.method.hourglass = 0.05;
+        }),
         refused(&|s| s.bodies[0].turn = Turn { axis: [0.0, 0.0, 1.0], degrees: 30.0 }),
         refused(&|s| s.bodies[0].shape = Shape::Sphere { diameter: 1.0 }),
     ];
