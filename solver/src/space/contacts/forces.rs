@@ -29,8 +29,6 @@ pub struct Active {
     push: [f64; 2],
     /// Viscous force over separation.
     drag: f64,
-    /// Closing rate of `r^2 / 2` before the kick.
-    closing: f64,
     /// Heat flux from the first to the second.
     flux: f64,
 }
@@ -44,12 +42,6 @@ impl Active {
             || self.push != [0.0; 2]
             || self.drag != 0.0
             || self.flux != 0.0
-    }
-
-    /// Viscous force over the speed of approach.
-    fn coefficient(&self) -> f64 {
-        let square = self.r[0] * self.r[0] + self.r[1] * self.r[1] + self.r[2] * self.r[2];
-        self.drag * square / self.closing
     }
 }
 
@@ -125,19 +117,8 @@ impl Contacts {
                 }
             }
         });
-        self.damping.clear();
-        let mut rate = 0.0f64;
+        let rate = view.damping(self.blocks.iter().flatten(), &mut sums.rho_rate);
         for contact in self.blocks.iter().flatten() {
-            if contact.drag > 0.0 {
-                // Nothing is damped in most scenes before something breaks.
-                self.damping.resize(members.len(), 0.0);
-                let coefficient = contact.coefficient();
-                for i in contact.pair.map(|k| k as usize) {
-                    let damping = &mut self.damping[self.index[i] as usize];
-                    *damping += coefficient / mesh.mass(i);
-                    rate = rate.max(*damping);
-                }
-            }
             let [i, j] = contact.pair.map(|k| k as usize);
             let force = contact.push[0] + contact.push[1] + contact.drag;
             let f = contact.r.map(|r| force * r);
@@ -230,12 +211,11 @@ impl View<'_> {
             row,
             push: [per(0, i), per(1, j)],
             drag: 0.0,
-            closing: self.closing(pair, r, bodies),
             flux: 0.0,
         };
         if near {
             let impedance = [self.impedance(i, bodies[0]), self.impedance(j, bodies[1])];
-            let approach = active.closing / distance;
+            let approach = self.closing(&active) / distance;
             if approach > 0.0 {
                 let slope = 0.5 * (body[0].slope + body[1].slope);
                 let sound = 0.5 * (self.sound(i, bodies[0]) + self.sound(j, bodies[1]));
@@ -255,11 +235,34 @@ impl View<'_> {
         Some(active)
     }
 
+    /// Largest rate at which the viscosity of all contacts of a particle damps it. `sums` is nothing before
+    /// and after: rates of density, which are summed there, are not known yet.
+    fn damping<'a>(
+        &self,
+        contacts: impl Iterator<Item = &'a Active> + Clone,
+        sums: &mut [f64],
+    ) -> f64 {
+        let damped = contacts.filter(|contact| contact.drag > 0.0);
+        let mut rate = 0.0f64;
+        for contact in damped.clone() {
+            let square: f64 = contact.r.iter().map(|r| r * r).sum();
+            let coefficient = contact.drag * square / self.closing(contact);
+            for i in contact.pair.map(|k| k as usize) {
+                sums[i] += coefficient / self.mesh.mass(i);
+                rate = rate.max(sums[i]);
+            }
+        }
+        for contact in damped {
+            contact.pair.into_iter().for_each(|i| sums[i as usize] = 0.0);
+        }
+        rate
+    }
+
     /// Closing rate of `r^2 / 2`.
     #[inline(always)]
-    fn closing(&self, [i, j]: [u32; 2], r: [f64; 3], bodies: [usize; 2]) -> f64 {
-        let (i, j) = (i as usize, j as usize);
-        let drift = self.mesh.drift_of(bodies[0], bodies[1]);
+    fn closing(&self, Active { pair, bodies, r, .. }: &Active) -> f64 {
+        let [i, j] = pair.map(|k| k as usize);
+        let drift = self.mesh.drift_of(bodies[0] as usize, bodies[1] as usize);
         let v = [
             self.state.vx[i] - self.state.vx[j] + drift[0],
             self.state.vy[i] - self.state.vy[j] + drift[1],

@@ -50,8 +50,6 @@ pub struct Contacts {
     place: Vec<[i16; 3]>,
     list: PairList,
     blocks: Vec<Vec<Active>>,
-    /// Rate at which the contacts of a member damp it, in a step with any that do.
-    damping: Vec<f64>,
     kernel: Option<Kernel>,
     /// Whether elements carry the pressure of the particles that they hold.
     volumes: bool,
@@ -141,8 +139,6 @@ impl Contacts {
         self.flags.reserve_exact(n);
         self.body.reserve_exact(n);
         self.place.reserve_exact(n);
-        // Holds no more than the members while they are fewer than that.
-        self.damping.reserve_exact(self.members.len() + n - self.damping.len());
     }
 
     /// Makes a particle able to touch any other, and members of those within two cells.
@@ -345,7 +341,6 @@ impl Contacts {
             + self.kernel.as_ref().map_or(0, Kernel::bytes)
             + nested(&self.terms)
             + nested(&self.blocks)
-            + 8 * self.damping.capacity()
     }
 }
 
