@@ -278,6 +278,12 @@ impl Claims {
     }
 }
 
+/// Scheme, variant and size of a run.
+fn in_words(key: &RunKey) -> String {
+    let variant = if key.variant.is_empty() { "" } else { ", " };
+    format!("`{}`{variant}{}, n = {}", key.scheme.label(), key.variant, key.n)
+}
+
 /// The claim that the compatible integrator keeps the energy, and every integrator the momentum.
 fn conservation(case: &'static str, key: &RunKey) -> Vec<Claim> {
     let energy = Claims::new(
@@ -287,14 +293,15 @@ fn conservation(case: &'static str, key: &RunKey) -> Vec<Claim> {
         "round-off of sums over a run; the compatible integrator conserves total energy exactly",
     );
     let momentum = Claims { source: "round-off; pair forces are opposite and equal", ..energy };
+    let run = in_words(key);
     vec![
         energy.claim(
-            "energy drift over the run",
+            format!("energy drift over the run, {run}"),
             Quantity::EnergyDrift(key.clone()),
             Wanted::AtMost(1e-12),
         ),
         momentum.claim(
-            "momentum drift over the run",
+            format!("momentum drift over the run, {run}"),
             Quantity::MomentumDrift(key.clone()),
             Wanted::AtMost(1e-12),
         ),
@@ -313,7 +320,7 @@ fn conservation_in_space(case: &'static str, key: &RunKey) -> Vec<Claim> {
     let source = "round-off; pair forces are opposite and central, element forces without moment";
     let must = Claims::new(case, Kind::Verification, Weight::Must, source);
     out.push(must.claim(
-        "angular momentum drift over the run",
+        format!("angular momentum drift over the run, {}", in_words(key)),
         Quantity::AngularDrift(key.clone()),
         Wanted::AtMost(1e-12),
     ));
