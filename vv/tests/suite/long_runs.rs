@@ -7,10 +7,11 @@ use std::path::Path;
 use serde_json::Value;
 use whipple_solver::method::Preset;
 use whipple_solver::space::Simulation;
+use whipple_solver::space::restart::Values;
 use whipple_vv::checkpoint::{CheckpointError, ElementType, Reader};
 use whipple_vv::record::RunRecord;
 use whipple_vv::run::{Monitor, Request, RunError, Silent, SpaceOptions, run_with};
-use whipple_vv::space::checkpoint::{Halted, load};
+use whipple_vv::space::checkpoint::{Halted, load, save};
 use whipple_vv::space::measured::{Look, Measured};
 use whipple_vv::space::recorder::Recorder;
 use whipple_vv::suite::scene_of;
@@ -310,8 +311,23 @@ fn interrupt_leaves_a_run_that_goes_on() {
 fn failure_leaves_the_last_good_state() {
     let folder = tempfile::tempdir().expect("a folder");
     let at = folder.path();
-    let args = ["--stop", "20", "--set", "cfl=40", "--out", "out"];
-    let failed = rod(at, &args);
+    assert_well(&rod(at, &["--stop", "2", "--out", "out"]));
+    // A particle so fast that the square of its speed is no number.
+    let of = key("long-rod", Preset::Default, 5).variant(PLAIN[1]);
+    let scene = cut_short(scene_of(case("long-rod"), &of).expect("a scene"));
+    let scene = scene.space().expect("a scene in space");
+    let halted = load(&at.join("out/checkpoint-000001.whp"), scene).expect("a checkpoint");
+    let Halted { mut simulation, measured } = halted;
+    let mut sections = simulation.sections();
+    for section in sections.iter_mut().filter(|section| section.name == "state.vx") {
+        let Values::F64(column) = &mut section.values else { panic!("numbers") };
+        column[0] = 1e200;
+    }
+    simulation.restore(&sections).expect("sections of its own");
+    fs::create_dir(at.join("bad")).expect("a folder");
+    save(&at.join("bad"), (scene, ""), &simulation, &measured).expect("a checkpoint");
+    let args = ["--stop", "20", "--out", "bad"];
+    let failed = rod(at, &[&args[..], &["--resume", "bad/checkpoint-000001.whp"]].concat());
     assert_eq!(failed.code, Some(3), "{}", failed.err);
     let (_, path) =
         failed.err.trim_end().split_once("last good state is kept in ").expect("a name");
