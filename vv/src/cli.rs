@@ -13,6 +13,7 @@ use numbers::{SIZES, THREADS, whole};
 use times::{SimulatedTime, wall_time};
 
 mod bench;
+mod folder;
 mod list;
 mod numbers;
 mod progress;

@@ -6,6 +6,7 @@ use std::path::Path;
 use serde::Serialize;
 
 use super::Failure;
+use super::folder::RECORD;
 use crate::cases::Case;
 use crate::claims::{Claim, Kind, Quantity, Verdict, Weight, judge};
 use crate::files::write_atomic;
@@ -266,7 +267,7 @@ pub(super) fn write_outputs(out: &Path, done: &Run) -> Result<(), Failure> {
         write_photos(&out.join(PICTURES), &done.photos)?;
     }
     // Last, so that a record always has its fields beside it.
-    Ok(write_record(&out.join("record.json"), record)?)
+    Ok(write_record(&out.join(RECORD), record)?)
 }
 
 fn csv(series: &Series) -> Result<String, Failure> {

@@ -6,6 +6,7 @@ use whipple_solver::method::Preset;
 use whipple_solver::space;
 use whipple_solver::units::{Dimension, Units};
 
+use super::folder::refuse_another_run;
 use super::progress::{Outlook, Progress};
 use super::results::{Bounds, json, text, write_outputs};
 use super::resume::{refusal, resume};
@@ -32,8 +33,8 @@ pub(super) fn run(args: &RunArgs) -> Result<u8, Failure> {
     let (request, bounds) = request(case, args)?;
     let scene = request.scene.clone();
     let (options, outlook) = match &scene {
-        Some(AnyScene::Space(scene)) => options(scene, args, &request.command)?,
-        _ => (only_in_space(args)?, Outlook::default()),
+        Some(AnyScene::Space(scene)) => options(scene, args, &request)?,
+        _ => (only_in_space(args, &request)?, Outlook::default()),
     };
     let unit = scene.as_ref().map_or("", |scene| scene.units().label(Dimension::Time));
 
@@ -77,7 +78,7 @@ pub(super) fn run(args: &RunArgs) -> Result<u8, Failure> {
 
 /// Makes the folder for the results of a run along a line; options that such a run has no use for are
 /// refused.
-fn only_in_space(args: &RunArgs) -> Result<SpaceOptions, Failure> {
+fn only_in_space(args: &RunArgs, request: &Request) -> Result<SpaceOptions, Failure> {
     let given = [
         ("--vtu", args.vtu.is_some()),
         ("--resume", args.resume.is_some()),
@@ -89,6 +90,7 @@ fn only_in_space(args: &RunArgs) -> Result<SpaceOptions, Failure> {
         return Err(Failure::usage(message));
     }
     if let Some(out) = &args.out {
+        refuse_another_run(out, request, false)?;
         ensure_writable_dir(out)?;
     }
     Ok(SpaceOptions::default())
@@ -99,13 +101,15 @@ fn only_in_space(args: &RunArgs) -> Result<SpaceOptions, Failure> {
 fn options(
     scene: &space::Scene,
     args: &RunArgs,
-    command: &str,
+    request: &Request,
 ) -> Result<(SpaceOptions, Outlook), Failure> {
+    let command = &request.command;
     let every = args.vtu.map(|every| every.in_units("--vtu", scene.units)).transpose()?;
     let from = args.resume.as_deref().map(|path| resume(path, scene, command)).transpose()?;
     let recorder = match &args.out {
         Some(out) => {
             ensure_writable_dir(out)?;
+            refuse_another_run(out, request, from.is_some())?;
             let recorder = Recorder::new(out, scene, every, from.as_ref());
             let recorder = recorder.map_err(Failure::usage)?.of(command);
             Some(match args.checkpoint {
