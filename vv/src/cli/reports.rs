@@ -223,10 +223,19 @@ fn conclude<'a>(verdicts: impl Iterator<Item = &'a Verdict>, out: &Path) -> Resu
 }
 
 /// Makes the Woodward-Colella reference.
+    let out = args.out.display();
+    if args.out.exists() && !args.force {
+        return Err(Failure::usage(format!(
+            "{out} is there already: --force writes over it, --out names another file"
+        )));
+    }
 pub(super) fn reference(args: &ReferenceArgs) -> Result<u8, Failure> {
     // Before it is computed, which takes minutes.
     if let Some(folder) = args.out.parent().filter(|folder| !folder.as_os_str().is_empty()) {
         ensure_writable_dir(folder)?;
+    say(&format!(
+        "computing the reference of woodward-colella, which takes some minutes; it goes to {out}"
+    ));
     }
     let text = woodward_colella::make_reference()?;
     write_atomic(&args.out, text.as_bytes())?;
