@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::PathBuf;
 use std::time::Duration;
 
-use clap::{Parser, Subcommand, ValueEnum};
+use clap::{CommandFactory, Parser, Subcommand, ValueEnum};
 use whipple_solver::method::{Density, Preset};
 
 use crate::cases::Level;
@@ -381,10 +381,23 @@ pub fn main() -> u8 {
     match ended {
         Ok(code) => code,
         Err(failure) => {
-            say(&format!("error: {}", failure.message));
+            say(&format!("error: {}", as_called(&failure.message, &program())));
             failure.code
         }
     }
+}
+
+/// The program as it was called.
+fn program() -> String {
+    let own = || Cli::command().get_name().to_owned();
+    std::env::args().next().filter(|name| !name.is_empty()).unwrap_or_else(own)
+}
+
+/// Text whose commands begin with the program as it was called, so that they can be copied.
+fn as_called(text: &str, program: &str) -> String {
+    ["`", "\n  "].into_iter().fold(text.to_owned(), |text, before| {
+        text.replace(&format!("{before}whipple "), &format!("{before}{program} "))
+    })
 }
 
 /// Prints results. A reader that has gone away is no error.
@@ -407,7 +420,17 @@ fn say(text: &str) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use clap::CommandFactory;
+
+    #[test]
+    fn commands_in_messages_are_those_of_the_program() {
+        let said = |text| as_called(text, "target/release/whipple");
+        assert_eq!(said("see `whipple list`"), "see `target/release/whipple list`");
+        assert_eq!(
+            said("continue with\n  whipple run noh"),
+            "continue with\n  target/release/whipple run noh"
+        );
+        assert_eq!(said("whipple is a program"), "whipple is a program");
+    }
 
     #[test]
     fn arguments_are_consistent() {

@@ -108,8 +108,8 @@ fn options(
     let from = args.resume.as_deref().map(|path| resume(path, scene, command)).transpose()?;
     let recorder = match &args.out {
         Some(out) => {
-            ensure_writable_dir(out)?;
             refuse_another_run(out, request, from.is_some())?;
+            ensure_writable_dir(out)?;
             let recorder = Recorder::new(out, scene, every, from.as_ref());
             let recorder = recorder.map_err(Failure::usage)?.of(command);
             Some(match args.checkpoint {
@@ -117,7 +117,12 @@ fn options(
                 None => recorder,
             })
         }
-        None => None,
+        None => {
+            say(
+                "note: nothing of this run is kept without --out: no record, pictures or checkpoint",
+            );
+            None
+        }
     };
     let done = from.as_ref().map(|halted| &halted.simulation);
     let outlook = Outlook {

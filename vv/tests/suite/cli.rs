@@ -133,6 +133,8 @@ fn wrong_input_is_refused() {
         refusal(&["run", "noh", "--set", "cfl=nan"]),
         refusal(&["run", "noh", "--set", "cfl"]),
         refusal(&["run", "noh", "--set", "clf=0.1"]),
+        refusal(&["run", "noh", "--set", "cfl=0.1", "--set", "method.cfl=0.2"]),
+        refusal(&["run", "noh", "--set", "visc_hourglass=0.1"]),
         refusal(&["run", "noh", "--set", "visc_linear=1e9"]),
         refusal(&["run", "planar-impact", "--set", "visc_linear=1e9"]),
         refusal(&["run", "planar-impact", "--set", "visc_hourglass=5"]),
@@ -311,8 +313,6 @@ fn results_are_written() {
     assert_eq!(entries, 3, "no temporary file is left");
 }
 
-/// A full disk is said to be one, whether results go to a device or to standard output.
-#[cfg(target_os = "linux")]
 /// A folder is for one run: that made again replaces its own, another is refused before it starts.
 #[test]
 fn folder_of_another_run_is_refused() {
@@ -352,6 +352,8 @@ fn folder_of_another_run_is_refused() {
     assert!(err.starts_with("error: x/record.json is not a record of format "), "{err}");
 }
 
+/// A full disk is said to be one, whether results go to a device or to standard output.
+#[cfg(target_os = "linux")]
 #[test]
 fn full_disk_is_reported() {
     let full =
