@@ -208,9 +208,8 @@ fn conclude<'a>(verdicts: impl Iterator<Item = &'a Verdict>, out: &Path) -> Resu
             Status::Missing => missing += 1,
             Status::Fail => {
                 failed += 1;
-                let value = verdict.value.map_or(verdict.note.clone(), |v| report::sig(v, 4));
                 let (case, what) = (verdict.claim.case, &verdict.claim.what);
-                let wanted = verdict.claim.wanted.text();
+                let (value, wanted) = (verdict.found(4), verdict.wanted());
                 text += &format!("FAILED  {case}: {what}: {value}, wanted {wanted}\n");
             }
         }
@@ -223,20 +222,20 @@ fn conclude<'a>(verdicts: impl Iterator<Item = &'a Verdict>, out: &Path) -> Resu
 }
 
 /// Makes the Woodward-Colella reference.
+pub(super) fn reference(args: &ReferenceArgs) -> Result<u8, Failure> {
     let out = args.out.display();
     if args.out.exists() && !args.force {
         return Err(Failure::usage(format!(
             "{out} is there already: --force writes over it, --out names another file"
         )));
     }
-pub(super) fn reference(args: &ReferenceArgs) -> Result<u8, Failure> {
     // Before it is computed, which takes minutes.
     if let Some(folder) = args.out.parent().filter(|folder| !folder.as_os_str().is_empty()) {
         ensure_writable_dir(folder)?;
+    }
     say(&format!(
         "computing the reference of woodward-colella, which takes some minutes; it goes to {out}"
     ));
-    }
     let text = woodward_colella::make_reference()?;
     write_atomic(&args.out, text.as_bytes())?;
     print(&format!("wrote {}\n", args.out.display()))?;

@@ -159,6 +159,24 @@ fn how_to_go_on(args: &RunArgs, command: &str, checkpoint: Option<&Path>) -> Str
     format!("; continue with\n  {again} --out {out} --resume {checkpoint}")
 }
 
+/// Says what is compared with what where a run ends at another time, or is of another problem.
+fn note_changes(case: &dyn Case, scene: &AnyScene, mut plain: AnyScene) {
+    if scene.stop_time() != plain.stop_time() {
+        say(
+            "note: the run ends at another time: an answer that is a function of time is taken then, \
+             any other stays that of the end of the case",
+        );
+        plain.set_stop_time(scene.stop_time());
+    }
+    if !scene.same_problem(&plain) {
+        say(&format!(
+            "note: the problem is not that of `{}`: what was measured is compared with the answer to the \
+             case as it stands, not to this problem",
+            case.id()
+        ));
+    }
+}
+
 /// Mentions the keys of `--set` that this scene has no use for.
 fn note_idle(sets: &[String], scene: &AnyScene) {
     for set in sets {
@@ -218,7 +236,7 @@ fn request<'a>(case: &'a dyn Case, args: &RunArgs) -> Result<(Request, Bounds<'a
     };
     let n = args.n.unwrap_or_else(|| case.default_size());
     let mut key = RunKey::new(case.id(), scheme, n).variant(&args.variant);
-    let bounds = Bounds::new(case, key.clone(), args.stop.is_some() || !args.sets.is_empty());
+    let own = key.clone();
     let plain = scene_of(case, &key);
     let units = plain.as_ref().map_or(Units::None, AnyScene::units);
     let stop = args.stop.map(|time| time.in_units("--stop", units)).transpose()?;
@@ -226,13 +244,10 @@ fn request<'a>(case: &'a dyn Case, args: &RunArgs) -> Result<(Request, Bounds<'a
         Some(plain) => Some(changed(case, &mut key, (plain, stop), args)?),
         None => None,
     };
-    let mut command = command_of(&key);
-    if let Some(time) = stop {
-        command += &format!(" --stop {time}");
-    }
-    for set in &args.sets {
-        command += &format!(" --set {set}");
-    }
+    let mut changes: Vec<String> = stop.iter().map(|time| format!("--stop {time}")).collect();
+    changes.extend(args.sets.iter().map(|set| format!("--set {set}")));
+    let bounds = Bounds::new(case, own, &changes);
+    let command = [vec![command_of(&key)], changes].concat().join(" ");
     Ok((Request { key, scene, threads: args.threads, command }, bounds))
 }
 
@@ -263,8 +278,6 @@ fn changed(
         *density = scene.density();
     }
     note_idle(&args.sets, &scene);
-    if !scene.same_problem(&plain) {
-        say("note: the problem was changed, the norms still compare with the answer to the case");
-    }
+    note_changes(case, &scene, plain);
     Ok(scene)
 }

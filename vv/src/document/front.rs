@@ -128,7 +128,7 @@ fn claim_row(verdict: &Verdict) -> Vec<Cell> {
             let text = format!("{} [{}, {}]", sig(value, 4), sig(low, 4), sig(high, 4));
             Cell { text, value: Some(value), status: None }
         }
-        (Some(value), None) => Cell::number(value, 5),
+        (Some(value), None) => Cell { text: verdict.found(5), ..Cell::number(value, 5) },
         (None, _) if verdict.status == Judged::Fail => verdict.note.clone().into(),
         (None, _) => "–".into(),
     };
@@ -153,7 +153,7 @@ fn claim_row(verdict: &Verdict) -> Vec<Cell> {
         what.into(),
         kind.into(),
         found,
-        claim.wanted.text().into(),
+        verdict.wanted().into(),
         Cell { status, ..Cell::text(word) },
         source.into(),
     ]
