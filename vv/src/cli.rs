@@ -50,13 +50,19 @@ Examples:
   whipple run sod --set heating=printed --out out/sod
   whipple run long-rod --vtu 5us --max-wall 30min --out out/rod
 
-Exit codes: 0 fine; 1 of vv and report: a required claim failed, of report --check: the report differs; 2
-wrong use or input; 3 numerical failure; 130 interrupted. `run` is one run of many: it prints what fails and
-ends with 0.";
+Exit codes:
+  0    fine; of run also where its numbers are not what is wanted: it is one run of many
+  1    a required claim failed (vv, report), or the report differs (report --check)
+  2    wrong use or input
+  3    numerical failure
+  130  interrupted";
 
 const RUN_EXIT_CODES: &str = "\
-Exit codes: 0 the run came to its end, also where its numbers are not what is wanted; 2 wrong use or input; 3
-numerical failure; 130 interrupted, or --max-wall is over.";
+Exit codes:
+  0    the run came to its end, also where its numbers are not what is wanted
+  2    wrong use or input
+  3    numerical failure
+  130  interrupted, or --max-wall is over";
 
 #[derive(Debug, Subcommand)]
 enum Command {
