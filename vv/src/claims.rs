@@ -7,6 +7,7 @@ use serde::Serialize;
 
 use crate::convergence::{self, Level, OrderFit};
 use crate::record::{Outcome, Records, RunKey, RunRecord};
+use crate::report::sig;
 
 /// Against what a claim is made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
@@ -131,10 +132,22 @@ impl Wanted {
         }
     }
 
+    /// The least and the greatest value that hold; infinite where there is no such bound.
+    #[must_use]
+    pub fn range(self) -> [f64; 2] {
+        let about = |target: f64, band: f64| [target - band, target + band];
+        match self {
+            Self::AtMost(bound) => [f64::NEG_INFINITY, bound],
+            Self::AtLeast(bound) => [bound, f64::INFINITY],
+            Self::WithinZero(bound) => [-bound, bound],
+            Self::Near(target, share) => about(target, share * target.abs()),
+            Self::Around(target, band) => about(target, band),
+        }
+    }
+
     /// In words.
     #[must_use]
     pub fn text(self) -> String {
-        use crate::report::sig;
         match self {
             Self::AtMost(bound) => format!("≤ {}", sig(bound, 4)),
             Self::AtLeast(bound) => format!("≥ {}", sig(bound, 4)),
@@ -205,12 +218,56 @@ impl Verdict {
         match (self.status, self.claim.weight) {
             (Status::Pass, _) => "pass",
             (Status::Missing, _) => "no record",
+            (Status::Fail, weight) if self.note.starts_with(RUN_FAILED) => match weight {
+                Weight::Must => "run failed",
+                Weight::Aim => "run failed, goal missed",
+                Weight::Shown => "run failed, as known",
+            },
             (Status::Fail, Weight::Must) => "fail",
             (Status::Fail, Weight::Aim) => "goal missed",
             (Status::Fail, Weight::Shown) => "fails, as known",
         }
     }
+
+    /// The number to `digits` digits, one that fails to as many as tell it from the bounds; why there is
+    /// none, where there is none.
+    #[must_use]
+    pub fn found(&self, digits: usize) -> String {
+        self.value.map_or(self.note.clone(), |value| sig(value, self.telling(value, digits)))
+    }
+
+    /// What is wanted, in words; beside a number that fails to be near a value with the range.
+    #[must_use]
+    pub fn wanted(&self) -> String {
+        let wanted = self.claim.wanted;
+        let text = wanted.text();
+        match (self.value, wanted.target()) {
+            (Some(value), Some(_)) if self.status == Status::Fail => {
+                let [low, high] = wanted.range().map(|bound| sig(bound, self.telling(value, 4)));
+                format!("{text} ({low} to {high})")
+            }
+            _ => text,
+        }
+    }
+
+    /// Digits, from so many on, that tell a number that fails from its bounds.
+    fn telling(&self, value: f64, digits: usize) -> usize {
+        let bounds = self.claim.wanted.range();
+        let same = |digits: usize| {
+            bounds
+                .iter()
+                .any(|bound| bound.is_finite() && sig(*bound, digits) == sig(value, digits))
+        };
+        let fails = self.status == Status::Fail;
+        (digits..MOST_DIGITS).find(|&digits| !(fails && same(digits))).unwrap_or(MOST_DIGITS)
+    }
 }
+
+/// Why there is no number where a run did not come to its end.
+const RUN_FAILED: &str = "run failed";
+
+/// Digits that tell any two numbers apart.
+const MOST_DIGITS: usize = 17;
 
 /// Judges claims by records.
 #[must_use]
@@ -223,7 +280,7 @@ fn verdict(claim: Claim, records: &Records) -> Verdict {
     let found: Vec<&RunRecord> = keys.iter().filter_map(|k| records.get(k)).collect();
     let stale = found.iter().any(|r| r.provenance.is_stale());
     let failed = found.iter().find_map(|r| match &r.outcome {
-        Outcome::Failed { kind, .. } => Some(format!("run failed: {kind}")),
+        Outcome::Failed { kind, .. } => Some(format!("{RUN_FAILED}: {kind}")),
         Outcome::Completed => None,
     });
     let mut out = Verdict {
@@ -304,4 +361,45 @@ pub fn order(runs: &[&RunRecord], name: &str) -> Option<OrderFit> {
         .map(|r| Some(Level { spacing: 1.0 / r.key.n as f64, value: *r.norms.get(name)? }))
         .collect();
     convergence::fitted_order(&levels?).ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use whipple_solver::method::Preset;
+
+    use crate::record::Scheme;
+
+    /// The verdict on a number.
+    fn judged(wanted: Wanted, value: f64) -> Verdict {
+        let key = RunKey::new("noh", Scheme::preset(Preset::Default), 10);
+        let claim = Claim {
+            case: "noh",
+            kind: Kind::Validation,
+            weight: Weight::Must,
+            what: String::new(),
+            quantity: Quantity::EnergyDrift(key),
+            wanted,
+            source: "",
+            in_sample: false,
+        };
+        let status = if wanted.holds(value) { Status::Pass } else { Status::Fail };
+        Verdict { claim, value: Some(value), fit: None, status, stale: false, note: String::new() }
+    }
+
+    #[test]
+    fn failing_numbers_differ_from_their_bounds_in_print() {
+        let said = |wanted, value| {
+            let verdict = judged(wanted, value);
+            (verdict.found(4), verdict.wanted())
+        };
+        let pair = |found: &str, wanted: &str| (found.to_owned(), wanted.to_owned());
+        let near = Wanted::Near(6.38, 0.05);
+        assert_eq!(said(near, 6.0609), pair("6.0609", "6.3800 ± 5.00 % (6.0610 to 6.6990)"));
+        assert_eq!(said(near, 5.5), pair("5.500", "6.3800 ± 5.00 % (6.061 to 6.699)"));
+        assert_eq!(said(near, 6.0611), pair("6.061", "6.3800 ± 5.00 %"));
+        assert_eq!(said(Wanted::AtMost(0.012), 0.012_000_01), pair("0.01200001", "≤ 0.01200"));
+        assert_eq!(said(Wanted::WithinZero(0.05), -0.050_001), pair("−0.050001", "|·| ≤ 0.05000"));
+        assert_eq!(said(Wanted::AtLeast(1.0), 1.0f64.next_down()).0, "0.9999999999999999");
+    }
 }

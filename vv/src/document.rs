@@ -19,7 +19,7 @@ pub fn compose(records: &Records, verdicts: &[Verdict]) -> (Report, Vec<Figure>)
     let mut figures = Vec::new();
     let (ran, not_run): (Vec<&dyn Case>, Vec<&dyn Case>) =
         cases::ALL.iter().partition(|case| has_run(**case, records));
-    let mut sections = vec![front::summary(verdicts, &not_run), front::reading()];
+    let mut sections = vec![front::reading(), front::summary(verdicts, &not_run)];
     for case in ran {
         let (section, drawn) = case::section(case, records, verdicts);
         sections.push(section);

@@ -2,6 +2,9 @@
 
 use serde_json::Value;
 
+use whipple_solver::method::Preset;
+
+use crate::cases;
 use crate::scene::AnyScene;
 use crate::suggest::did_you_mean;
 
@@ -33,6 +36,12 @@ pub enum OverrideError {
         /// A similar name, or nothing.
         hint: String,
     },
+    /// A key that another override sets already.
+    #[error("`--set {key}` is given twice: one value has to do")]
+    Twice {
+        /// The key as given.
+        key: String,
+    },
     /// A value of the wrong form.
     #[error("`--set {key}={value}`: {reason}")]
     BadValue {
@@ -49,14 +58,23 @@ pub enum OverrideError {
 /// first: `heating` is `method.heating`. Values are TOML; a bare word is a string.
 ///
 /// # Errors
-/// The first override that names nothing or has a value of the wrong form. Whether the value makes
+/// The first override that names nothing, has a value of the wrong form or sets a key again. Whether the value makes
 /// sense is for [`AnyScene::validate`] to say.
 pub fn apply(scene: AnyScene, overrides: &[String]) -> Result<AnyScene, OverrideError> {
     let mut scene = scene;
-    for text in overrides {
+    for (k, text) in overrides.iter().enumerate() {
         scene = apply_one(&scene, text)?;
+        if overrides[..k].iter().any(|other| key(other) == key(text)) {
+            return Err(OverrideError::Twice { key: key(text).to_owned() });
+        }
     }
     Ok(scene)
+}
+
+/// The key of an override, without `method.` before it.
+fn key(text: &str) -> &str {
+    let key = text.split('=').next().unwrap_or_default().trim();
+    key.strip_prefix("method.").unwrap_or(key)
 }
 
 fn apply_one(scene: &AnyScene, text: &str) -> Result<AnyScene, OverrideError> {
@@ -75,7 +93,7 @@ fn apply_one(scene: &AnyScene, text: &str) -> Result<AnyScene, OverrideError> {
     let path = if in_method { format!("method.{key}") } else { key.to_owned() };
     let with = |new: Value| {
         let mut tree = tree.clone();
-        *place(&mut tree, &path, key, value)? = new;
+        *place(&mut tree, &path, key, value).map_err(|error| elsewhere(scene, error))? = new;
         read(scene, tree).map_err(bad)
     };
     match with(parse(value).map_err(bad)?) {
@@ -83,6 +101,21 @@ fn apply_one(scene: &AnyScene, text: &str) -> Result<AnyScene, OverrideError> {
         Err(error) if value == "none" => with(Value::Null).map_err(|_| error),
         done => done,
     }
+}
+
+/// Says of a key that is not there if scenes of the other kind have it.
+fn elsewhere(scene: &AnyScene, error: OverrideError) -> OverrideError {
+    let OverrideError::NoKey { key, value, part, place, hint } = error else { return error };
+    let scenes = cases::ALL.iter().map(|c| c.scene(Preset::Default, "", c.default_size()));
+    let mut other = scenes.filter(|other| other.space().is_some() != scene.space().is_some());
+    let tree = other.next().and_then(|other| serde_json::to_value(other).ok());
+    let has = tree.is_some_and(|tree| tree["method"].get(self::key(&key)).is_some());
+    let hint = match (has, scene.space()) {
+        (false, _) => hint,
+        (true, None) => "; it exists in three dimensions alone".into(),
+        (true, Some(_)) => "; it exists along a line alone".into(),
+    };
+    OverrideError::NoKey { key, value, part, place, hint }
 }
 
 /// A scene of the kind of another.
@@ -184,7 +217,7 @@ fn json(value: toml::Value) -> Result<Value, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use whipple_solver::method::{Heating, Preset};
+    use whipple_solver::method::Heating;
     use whipple_solver::scene::Scene;
 
     fn changed(set: &str) -> Result<Scene, OverrideError> {

@@ -233,6 +233,17 @@ pub struct RunRecord {
     pub provenance: Provenance,
 }
 
+impl RunRecord {
+    /// Reads a record.
+    ///
+    /// # Errors
+    /// [`RecordError`] if there is no such file or it is not a record.
+    pub fn read(path: &Path) -> Result<Self, RecordError> {
+        let text = std::fs::read_to_string(path).map_err(unreadable(path))?;
+        parse(path, &text)
+    }
+}
+
 /// Pictures cannot be drawn again from a record: their files stand beside the records, and the record
 /// says which they are.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -391,16 +402,11 @@ impl Records {
     /// # Errors
     /// The first file that cannot be read or is not a record.
     pub fn read(folder: &Path) -> Result<Self, RecordError> {
-        let unreadable = |path: &Path| {
-            let path = path.to_owned();
-            move |source| RecordError::Unreadable { path, source }
-        };
         let mut records = Self::default();
         for entry in std::fs::read_dir(folder).map_err(unreadable(folder))? {
             let path = entry.map_err(unreadable(folder))?.path();
             if path.extension().is_some_and(|e| e == "json") {
-                let text = std::fs::read_to_string(&path).map_err(unreadable(&path))?;
-                records.insert(parse(&path, &text)?);
+                records.insert(RunRecord::read(&path)?);
             }
         }
         Ok(records)
@@ -426,6 +432,12 @@ impl Records {
     pub fn of_case<'a>(&'a self, case: &'a str) -> impl Iterator<Item = &'a RunRecord> {
         self.iter().filter(move |r| r.key.case == case)
     }
+}
+
+/// What the system says of a path.
+fn unreadable(path: &Path) -> impl FnOnce(std::io::Error) -> RecordError {
+    let path = path.to_owned();
+    move |source| RecordError::Unreadable { path, source }
 }
 
 fn parse(path: &Path, text: &str) -> Result<RunRecord, RecordError> {

@@ -27,7 +27,7 @@ pub enum CheckpointError {
         known: u32,
     },
     /// The file is of another scene, whose state means something else.
-    #[error("header: the state is of scene {found}, wanted scene {wanted}")]
+    #[error("header: the state is of scene {}, wanted scene {}", short(found), short(wanted))]
     Scene {
         /// Hash of the scene of the file.
         found: String,
@@ -96,6 +96,11 @@ pub enum CheckpointError {
         /// What the system says.
         source: io::Error,
     },
+}
+
+/// The first digits of a hash, which tell it from any other.
+pub(super) fn short(hash: &str) -> &str {
+    hash.get(..12).unwrap_or(hash)
 }
 
 impl CheckpointError {

@@ -6,7 +6,7 @@ use std::ops::Range;
 use std::path::Path;
 
 use super::element::{Element, ElementType};
-use super::error::CheckpointError;
+use super::error::{CheckpointError, short};
 use super::header::{Meta, SectionInfo, decode};
 use super::shuffle::unpack;
 
@@ -112,8 +112,8 @@ impl Reader {
         for section in &sections {
             let found = blake3::hash(&body[range(section)]).to_hex();
             if found.as_str() != section.blake3 {
-                let (name, wanted) = (&section.name, section.blake3.as_str());
-                let found = format!("BLAKE3 is {found}");
+                let (name, wanted) = (&section.name, short(&section.blake3));
+                let found = format!("BLAKE3 is {}", short(&found));
                 return Err(CheckpointError::section(name, found, wanted));
             }
         }

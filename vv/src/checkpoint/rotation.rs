@@ -22,10 +22,12 @@ pub struct Latest {
     pub passed_over: Vec<(PathBuf, CheckpointError)>,
 }
 
-/// Writes `writer` as the next checkpoint of the run in `folder` and removes all but the last two.
+/// Writes `writer` as the next checkpoint of the run in `folder` and removes what is older than the
+/// last two whole ones.
 ///
 /// Files are numbered in the order of writing and not by step: a run that starts again from an
-/// earlier step must not be outranked by what it replaces. A folder is for one run at a time.
+/// earlier step must not be outranked by what it replaces. A damaged file takes the place of none that
+/// can be gone on from. A folder is for one run at a time.
 ///
 /// # Errors
 /// [`CheckpointError`]; earlier checkpoints are kept until the new one is on the disk. After
@@ -35,9 +37,13 @@ pub fn save_next(folder: &Path, writer: &Writer) -> Result<PathBuf, CheckpointEr
     let number = earlier.last().map_or(1, |(number, _)| number + 1);
     let path = folder.join(file_name(number));
     writer.write(&path)?;
-    let superfluous = (earlier.len() + 1).saturating_sub(KEPT);
-    for (_, path) in earlier.into_iter().take(superfluous) {
-        fs::remove_file(&path).map_err(|source| CheckpointError::Remove { path, source })?;
+    let mut whole = 1;
+    for (_, path) in earlier.into_iter().rev() {
+        if whole < KEPT {
+            whole += usize::from(Reader::open_any(&path).is_ok());
+        } else {
+            fs::remove_file(&path).map_err(|source| CheckpointError::Remove { path, source })?;
+        }
     }
     Ok(path)
 }

@@ -4,6 +4,8 @@ use std::ops::RangeInclusive;
 
 use whipple_solver::scene::MAX_PARTICLES;
 
+use super::sizes::grouped;
+
 /// Sizes that a case may be asked for; whether it has such a size is for its scene to say.
 pub(super) const SIZES: RangeInclusive<usize> = 1..=MAX_PARTICLES;
 
@@ -17,7 +19,8 @@ pub(super) fn whole(
     move |text| {
         let number = text.trim().parse().ok().filter(|number| range.contains(number));
         number.ok_or_else(|| {
-            format!("wanted a whole number from {} to {}", range.start(), range.end())
+            let [start, end] = [range.start(), range.end()].map(|&bound| grouped(bound as u64));
+            format!("wanted a whole number from {start} to {end}")
         })
     }
 }

@@ -19,6 +19,9 @@ const PARTS: u64 = 1000;
 /// what a run has taken so far.
 const PATIENCE: [Duration; 2] = [Duration::from_secs(10), Duration::from_secs(60)];
 
+/// Part of a run over which its pace is taken.
+const PART: f64 = 0.1;
+
 /// What is known of a run before it begins.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Outlook {
@@ -40,6 +43,7 @@ pub(super) struct Progress {
 /// What changes during a run.
 struct State {
     start: Instant,
+    pace: Pace,
     drift: Option<f64>,
     /// When the last line was printed, where there is no bar.
     said: Option<Instant>,
@@ -64,7 +68,8 @@ impl Progress {
             bar.set_style(style);
         }
         let start = Instant::now();
-        let state = State { start, drift: None, said: (!terminal).then_some(start) };
+        let pace = Pace::from(outlook.from.0);
+        let state = State { start, pace, drift: None, said: (!terminal).then_some(start) };
         Self { bar, outlook, state: Mutex::new(state) }
     }
 
@@ -74,6 +79,7 @@ impl Progress {
         self.bar.set_prefix(what.to_owned());
         let mut state = self.state();
         (state.start, state.drift) = (Instant::now(), None);
+        state.pace = Pace::from(self.outlook.from.0);
     }
 
     /// Takes the line away.
@@ -98,20 +104,51 @@ fn patience(so_far: Duration) -> Duration {
     (so_far / 10).clamp(least, most)
 }
 
+/// How fast simulated time has passed lately. Steps shorten and contacts come over a run: its beginning
+/// says little of the rest.
+struct Pace {
+    /// Simulated time that the run began at.
+    first: f64,
+    /// Seconds and simulated time at two points of the run, a part apart.
+    marks: [(f64, f64); 2],
+}
+
+impl Pace {
+    /// Of a run that begins at a time.
+    fn from(first: f64) -> Self {
+        Self { first, marks: [(0.0, first); 2] }
+    }
+
+    /// Seconds that are left of a run to `stop`, by the rate over the last part or two of it. In its first
+    /// part nothing is said.
+    fn left(&mut self, seconds: f64, time: f64, stop: f64) -> Option<f64> {
+        let part = PART * (stop - self.first);
+        if time < self.first + part {
+            return None;
+        }
+        let [(from, of), _] = self.marks;
+        let left = (stop - time) * (seconds - from) / (time - of);
+        if time >= self.marks[1].1 + part {
+            self.marks = [self.marks[1], (seconds, time)];
+        }
+        Some(left)
+    }
+}
+
 impl Monitor for Progress {
     fn tick(&self, time: f64, stop: f64, particle_steps: u64) -> bool {
         let mut state = self.state();
-        let Outlook { unit, from: (first, before), .. } = self.outlook;
+        let Outlook { unit, from: (_, before), .. } = self.outlook;
         let seconds = state.start.elapsed().as_secs_f64().max(1e-9);
         let rate = particle_steps.saturating_sub(before) as f64 / seconds / 1e6;
-        let left = seconds * (stop - time) / (time - first);
+        let left = state.pace.left(seconds, time, stop);
         let space = if unit.is_empty() { "" } else { " " };
         let mut message = format!("t = {time:.4e}{space}{unit}, {rate:.1} M particle-steps/s");
         if let Some(drift) = state.drift {
             message += &format!(", energy drift {drift:.0e}");
         }
-        // Long times are rounded up to whole seconds; nothing is known at the beginning.
-        if let Ok(left) = Duration::try_from_secs_f64(left.ceil()) {
+        // Long times are rounded up to whole seconds.
+        if let Some(Ok(left)) = left.map(|left| Duration::try_from_secs_f64(left.ceil())) {
             message += &format!(", {} left", humantime::format_duration(left));
         }
         if state.said.is_some_and(|last| last.elapsed() >= patience(state.start.elapsed())) {
@@ -132,6 +169,22 @@ impl Monitor for Progress {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Nothing is said at first; then the last part counts, and not what was before it.
+    #[test]
+    fn time_left_is_that_of_the_last_part() {
+        let mut pace = Pace::from(2.0);
+        assert_eq!(pace.left(1.0, 2.9, 12.0), None);
+        // A second for each unit of time up to 7, then ten.
+        for k in 1..=5 {
+            let t = f64::from(k);
+            assert_eq!(pace.left(t, 2.0 + t, 12.0), Some(10.0 - t));
+        }
+        pace.left(15.0, 8.0, 12.0);
+        pace.left(25.0, 9.0, 12.0);
+        assert_eq!(pace.left(35.0, 10.0, 12.0), Some(20.0));
+        assert_eq!(pace.left(55.0, 12.0, 12.0), Some(0.0));
+    }
 
     #[test]
     fn lines_come_soon_and_then_less_often() {

@@ -19,6 +19,9 @@ use crate::record::{Outcome, Records};
 use crate::report::{self, Drawing, Pictures};
 use crate::suite::{Forecast, covers, forecast, records_folder, run_suite, scene_of, verdicts};
 
+/// Files that are named of those that differ.
+const NAMED: usize = 5;
+
 /// Runs, judges, reports.
 pub(super) fn vv(args: &VvArgs) -> Result<u8, Failure> {
     let cases = find_all(&args.cases)?;
@@ -117,7 +120,7 @@ pub(super) fn report(args: &ReportArgs) -> Result<u8, Failure> {
 fn check(folder: &Path, pictures: Pictures) -> Result<u8, Failure> {
     let fresh =
         tempfile::tempdir().map_err(|e| Failure::usage(format!("no temporary folder: {e}")))?;
-    let (page, figures, _) = made(folder)?;
+    let (page, figures, verdicts) = made(folder)?;
     report::write(&page, &figures, fresh.path(), pictures).map_err(Failure::usage)?;
     let mut differing = Vec::new();
     compare(fresh.path(), folder, Path::new(""), &mut differing)?;
@@ -125,8 +128,24 @@ fn check(folder: &Path, pictures: Pictures) -> Result<u8, Failure> {
         print("the report is what its records give\n")?;
         return Ok(0);
     }
-    let list = differing.join(", ");
-    Err(Failure { code: CLAIM_FAILED, message: format!("not what the records give: {list}") })
+    let stale = verdicts.iter().filter(|verdict| verdict.stale).count();
+    Err(Failure { code: CLAIM_FAILED, message: difference(stale, differing) })
+}
+
+/// What differs from a fresh report, and why it may, where so many claims are of older records.
+fn difference(stale: usize, mut differing: Vec<String>) -> String {
+    differing.sort_unstable();
+    let why = match stale {
+        0 => String::new(),
+        1 => "1 claim is of records older than the solver; ".into(),
+        _ => format!("{stale} claims are of records older than the solver; "),
+    };
+    let named = differing.len().min(NAMED);
+    let more = match differing.len() - named {
+        0 => String::new(),
+        more => format!(" and {more} more"),
+    };
+    format!("{why}not what the records give: {}{more}", differing[..named].join(", "))
 }
 
 fn compare(
@@ -189,9 +208,8 @@ fn conclude<'a>(verdicts: impl Iterator<Item = &'a Verdict>, out: &Path) -> Resu
             Status::Missing => missing += 1,
             Status::Fail => {
                 failed += 1;
-                let value = verdict.value.map_or(verdict.note.clone(), |v| report::sig(v, 4));
                 let (case, what) = (verdict.claim.case, &verdict.claim.what);
-                let wanted = verdict.claim.wanted.text();
+                let (value, wanted) = (verdict.found(4), verdict.wanted());
                 text += &format!("FAILED  {case}: {what}: {value}, wanted {wanted}\n");
             }
         }
@@ -205,10 +223,19 @@ fn conclude<'a>(verdicts: impl Iterator<Item = &'a Verdict>, out: &Path) -> Resu
 
 /// Makes the Woodward-Colella reference.
 pub(super) fn reference(args: &ReferenceArgs) -> Result<u8, Failure> {
+    let out = args.out.display();
+    if args.out.exists() && !args.force {
+        return Err(Failure::usage(format!(
+            "{out} is there already: --force writes over it, --out names another file"
+        )));
+    }
     // Before it is computed, which takes minutes.
     if let Some(folder) = args.out.parent().filter(|folder| !folder.as_os_str().is_empty()) {
         ensure_writable_dir(folder)?;
     }
+    say(&format!(
+        "computing the reference of woodward-colella, which takes some minutes; it goes to {out}"
+    ));
     let text = woodward_colella::make_reference()?;
     write_atomic(&args.out, text.as_bytes())?;
     print(&format!("wrote {}\n", args.out.display()))?;
@@ -241,6 +268,17 @@ mod tests {
             said,
             "level full: 7 runs of long-rod, about 2m of CPU time by the records of the folder (1m 10s of it \
              scaled from other sizes or schemes); no record tells the time of 1"
+        );
+    }
+
+    #[test]
+    fn differences_are_named_in_order_and_counted() {
+        let files = |all: &[&str]| all.iter().map(ToString::to_string).collect::<Vec<String>>();
+        assert_eq!(difference(0, files(&["b", "a"])), "not what the records give: a, b");
+        assert_eq!(
+            difference(517, files(&["g", "f", "e", "d", "c", "b", "a"])),
+            "517 claims are of records older than the solver; not what the records give: a, b, c, d, e and 2 \
+             more"
         );
     }
 

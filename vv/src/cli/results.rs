@@ -5,9 +5,10 @@ use std::path::Path;
 
 use serde::Serialize;
 
-use super::Failure;
+use super::folder::RECORD;
+use super::{Failure, program};
 use crate::cases::Case;
-use crate::claims::{Claim, Kind, Quantity, Verdict, Weight, judge};
+use crate::claims::{Claim, Kind, Quantity, Status, Verdict, Weight, judge};
 use crate::files::write_atomic;
 use crate::pictures::{PICTURES, write_photos};
 use crate::record::{Outcome, Records, RunKey, RunRecord, Scheme, Series};
@@ -110,14 +111,19 @@ pub(super) struct Bounds<'a> {
     case: &'a dyn Case,
     /// The run of the case as it stands.
     key: RunKey,
-    /// Whether `--set` or `--stop` made another run of it, of which nothing is claimed.
-    changed: bool,
+    /// What `--set` and `--stop` made another run of it by, of which nothing is claimed.
+    changes: String,
 }
 
 impl<'a> Bounds<'a> {
     /// Those of the run `key` of a case, or of one that was changed.
-    pub(super) fn new(case: &'a dyn Case, key: RunKey, changed: bool) -> Self {
-        Self { case, key, changed }
+    pub(super) fn new(case: &'a dyn Case, key: RunKey, changes: &[String]) -> Self {
+        Self { case, key, changes: changes.join(", ") }
+    }
+
+    /// Whether the run is not of the case as it stands.
+    fn is_changed(&self) -> bool {
+        !self.changes.is_empty()
     }
 
     /// The claims of the run that its record alone decides.
@@ -133,8 +139,8 @@ impl<'a> Bounds<'a> {
 
     /// What is wanted of a number and, in a run of the case as it stands, whether it is that.
     fn judgement(&self, verdict: &Verdict) -> String {
-        let wanted = reference(&verdict.claim);
-        if self.changed { wanted } else { format!("{wanted}: {}", verdict.word()) }
+        let wanted = reference(verdict, self.is_changed());
+        if self.is_changed() { wanted } else { format!("{wanted}: {}", verdict.word()) }
     }
 
     /// The value that other runs of the variant are held against, if it is one for all sizes.
@@ -157,14 +163,15 @@ fn against(kind: Kind) -> &'static str {
         Kind::Verification => "exact",
         Kind::Replication => "paper",
         Kind::Validation => "experiment",
-        Kind::Comparison => "other codes",
+        Kind::Comparison => "reference",
         Kind::Cost | Kind::Stability => "wanted",
     }
 }
 
-/// What a claim wants, after what it is held against.
-fn reference(claim: &Claim) -> String {
-    let wanted = claim.wanted.text();
+/// What a claim wants, after what it is held against; of a run that was changed nothing fails.
+fn reference(verdict: &Verdict, changed: bool) -> String {
+    let claim = &verdict.claim;
+    let wanted = if changed { claim.wanted.text() } else { verdict.wanted() };
     match (claim.wanted.target(), claim.weight) {
         (Some(_), _) => format!("{} {wanted}", against(claim.kind)),
         (None, Weight::Aim) => format!("goal {wanted}"),
@@ -189,6 +196,8 @@ fn row_of(quantity: &Quantity) -> Option<&str> {
     })
 }
 
+/// Norms that are counts.
+const COUNTS: [&str; 3] = ["particles", "failed_elements", "dead_elements"];
 const ENERGY: &str = "energy drift";
 const MOMENTUM: &str = "momentum drift";
 const ANGULAR: &str = "angular momentum drift";
@@ -198,12 +207,22 @@ const GEOMETRY: &str = "error of the meshed mass";
 /// The numbers of a run, a line each, with what is wanted of them.
 pub(super) fn text(bounds: &Bounds, record: &RunRecord) -> String {
     let case = bounds.case;
-    let mut out =
-        format!("{}: {}, n = {}\n", case.title(), record.key.scheme.label(), record.key.n);
+    let key = &record.key;
+    let mut out = format!("{}: {}, n = {}", case.title(), key.scheme.label(), key.n);
+    if !key.variant.is_empty() {
+        out += &format!(", variant {}", key.variant);
+    }
+    if !bounds.changes.is_empty() {
+        out += &format!(", changed by {}", bounds.changes);
+    }
+    out += "\n";
     let verdicts = bounds.verdicts(record);
     let mut row = |name: &str, value: String| {
-        let own = verdicts.iter().filter(|v| row_of(&v.claim.quantity) == Some(name));
-        let mut wanted: Vec<String> = own.map(|v| bounds.judgement(v)).collect();
+        let own = || verdicts.iter().filter(|v| row_of(&v.claim.quantity) == Some(name));
+        let mut wanted: Vec<String> = own().map(|v| bounds.judgement(v)).collect();
+        // One that fails has the digits that show it.
+        let failing = own().filter(|v| v.status == Status::Fail && !bounds.is_changed());
+        let value = failing.map(|v| v.found(5)).max_by_key(String::len).unwrap_or(value);
         if wanted.is_empty() {
             wanted.extend(bounds.elsewhere(name));
         }
@@ -212,7 +231,15 @@ pub(super) fn text(bounds: &Bounds, record: &RunRecord) -> String {
         out += "\n";
     };
     for (name, value) in &record.norms {
-        row(name, if value.is_nan() { "no number".into() } else { sig(*value, 5) });
+        let counted = COUNTS.contains(&name.as_str());
+        row(
+            name,
+            match value {
+                value if value.is_nan() => "no number".into(),
+                value if counted => value.to_string(),
+                value => sig(*value, 5),
+            },
+        );
     }
     row(ENERGY, sig(record.energy_drift, 2));
     row(MOMENTUM, sig(record.momentum_drift, 2));
@@ -220,9 +247,15 @@ pub(super) fn text(bounds: &Bounds, record: &RunRecord) -> String {
         row(ANGULAR, sig(space.angular_momentum_drift, 2));
         row(RESIDUAL, sig(space.ledger_residual, 2));
         row(GEOMETRY, sig(space.geometry_mass_error, 2));
-        row("particles of the scene", space.particles.to_string());
-        row("elements", space.elements.to_string());
-        row("failed elements", space.failed_elements.to_string());
+        let [particles, failed, _] = COUNTS;
+        let mut once = |norm: &str, name: &str, count: usize| {
+            if record.norms.get(norm) != Some(&(count as f64)) {
+                row(name, count.to_string());
+            }
+        };
+        once(particles, "particles of the scene", space.particles);
+        once("", "elements", space.elements);
+        once(failed, "failed elements", space.failed_elements);
         row("updates per CPU second", sig(space.updates_per_cpu_second, 3));
         row("bytes per particle", sig(space.bytes_per_particle, 3));
     }
@@ -236,18 +269,18 @@ pub(super) fn text(bounds: &Bounds, record: &RunRecord) -> String {
     row("particle-steps", record.particle_steps.to_string());
     row("CPU seconds", sig(record.cpu_seconds, 3));
     for verdict in verdicts.iter().filter(|v| row_of(&v.claim.quantity).is_none()) {
-        let value = verdict.value.map_or(verdict.note.clone(), |value| sig(value, 4));
+        let value = verdict.found(4);
         out += &format!("  {}: {value}, {}\n", verdict.claim.what, bounds.judgement(verdict));
     }
     if record.outcome != Outcome::Completed {
         return out;
     }
-    let note = match (verdicts.is_empty(), bounds.changed) {
+    let note = match (verdicts.is_empty(), bounds.is_changed()) {
         (true, _) => "No claim is made of this run alone",
         (false, true) => "What is wanted is of the case as it stands, and not judged here",
         (false, false) => "Orders and changes are claimed of several runs",
     };
-    out + &format!("{note}; `whipple list {}` has all claims.\n", case.id())
+    out + &format!("{note}; `{} list {}` has all claims.\n", program(), case.id())
 }
 
 /// Writes the record, the frozen scene, the fields and the pictures.
@@ -266,7 +299,7 @@ pub(super) fn write_outputs(out: &Path, done: &Run) -> Result<(), Failure> {
         write_photos(&out.join(PICTURES), &done.photos)?;
     }
     // Last, so that a record always has its fields beside it.
-    Ok(write_record(&out.join("record.json"), record)?)
+    Ok(write_record(&out.join(RECORD), record)?)
 }
 
 fn csv(series: &Series) -> Result<String, Failure> {

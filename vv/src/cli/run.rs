@@ -6,6 +6,7 @@ use whipple_solver::method::Preset;
 use whipple_solver::space;
 use whipple_solver::units::{Dimension, Units};
 
+use super::folder::refuse_another_run;
 use super::progress::{Outlook, Progress};
 use super::results::{Bounds, json, text, write_outputs};
 use super::resume::{refusal, resume};
@@ -32,8 +33,8 @@ pub(super) fn run(args: &RunArgs) -> Result<u8, Failure> {
     let (request, bounds) = request(case, args)?;
     let scene = request.scene.clone();
     let (options, outlook) = match &scene {
-        Some(AnyScene::Space(scene)) => options(scene, args, &request.command)?,
-        _ => (only_in_space(args)?, Outlook::default()),
+        Some(AnyScene::Space(scene)) => options(scene, args, &request)?,
+        _ => (only_in_space(args, &request)?, Outlook::default()),
     };
     let unit = scene.as_ref().map_or("", |scene| scene.units().label(Dimension::Time));
 
@@ -77,7 +78,7 @@ pub(super) fn run(args: &RunArgs) -> Result<u8, Failure> {
 
 /// Makes the folder for the results of a run along a line; options that such a run has no use for are
 /// refused.
-fn only_in_space(args: &RunArgs) -> Result<SpaceOptions, Failure> {
+fn only_in_space(args: &RunArgs, request: &Request) -> Result<SpaceOptions, Failure> {
     let given = [
         ("--vtu", args.vtu.is_some()),
         ("--resume", args.resume.is_some()),
@@ -89,6 +90,7 @@ fn only_in_space(args: &RunArgs) -> Result<SpaceOptions, Failure> {
         return Err(Failure::usage(message));
     }
     if let Some(out) = &args.out {
+        refuse_another_run(out, request, false)?;
         ensure_writable_dir(out)?;
     }
     Ok(SpaceOptions::default())
@@ -99,12 +101,14 @@ fn only_in_space(args: &RunArgs) -> Result<SpaceOptions, Failure> {
 fn options(
     scene: &space::Scene,
     args: &RunArgs,
-    command: &str,
+    request: &Request,
 ) -> Result<(SpaceOptions, Outlook), Failure> {
+    let command = &request.command;
     let every = args.vtu.map(|every| every.in_units("--vtu", scene.units)).transpose()?;
     let from = args.resume.as_deref().map(|path| resume(path, scene, command)).transpose()?;
     let recorder = match &args.out {
         Some(out) => {
+            refuse_another_run(out, request, from.is_some())?;
             ensure_writable_dir(out)?;
             let recorder = Recorder::new(out, scene, every, from.as_ref());
             let recorder = recorder.map_err(Failure::usage)?.of(command);
@@ -113,7 +117,12 @@ fn options(
                 None => recorder,
             })
         }
-        None => None,
+        None => {
+            say(
+                "note: nothing of this run is kept without --out: no record, pictures or checkpoint",
+            );
+            None
+        }
     };
     let done = from.as_ref().map(|halted| &halted.simulation);
     let outlook = Outlook {
@@ -148,6 +157,24 @@ fn how_to_go_on(args: &RunArgs, command: &str, checkpoint: Option<&Path>) -> Str
     }
     let [out, checkpoint] = [out, checkpoint].map(|path| path.display());
     format!("; continue with\n  {again} --out {out} --resume {checkpoint}")
+}
+
+/// Says what is compared with what where a run ends at another time, or is of another problem.
+fn note_changes(case: &dyn Case, scene: &AnyScene, mut plain: AnyScene) {
+    if scene.stop_time() != plain.stop_time() {
+        say(
+            "note: the run ends at another time: an answer that is a function of time is taken then, \
+             any other stays that of the end of the case",
+        );
+        plain.set_stop_time(scene.stop_time());
+    }
+    if !scene.same_problem(&plain) {
+        say(&format!(
+            "note: the problem is not that of `{}`: what was measured is compared with the answer to the \
+             case as it stands, not to this problem",
+            case.id()
+        ));
+    }
 }
 
 /// Mentions the keys of `--set` that this scene has no use for.
@@ -209,7 +236,7 @@ fn request<'a>(case: &'a dyn Case, args: &RunArgs) -> Result<(Request, Bounds<'a
     };
     let n = args.n.unwrap_or_else(|| case.default_size());
     let mut key = RunKey::new(case.id(), scheme, n).variant(&args.variant);
-    let bounds = Bounds::new(case, key.clone(), args.stop.is_some() || !args.sets.is_empty());
+    let own = key.clone();
     let plain = scene_of(case, &key);
     let units = plain.as_ref().map_or(Units::None, AnyScene::units);
     let stop = args.stop.map(|time| time.in_units("--stop", units)).transpose()?;
@@ -217,13 +244,10 @@ fn request<'a>(case: &'a dyn Case, args: &RunArgs) -> Result<(Request, Bounds<'a
         Some(plain) => Some(changed(case, &mut key, (plain, stop), args)?),
         None => None,
     };
-    let mut command = command_of(&key);
-    if let Some(time) = stop {
-        command += &format!(" --stop {time}");
-    }
-    for set in &args.sets {
-        command += &format!(" --set {set}");
-    }
+    let mut changes: Vec<String> = stop.iter().map(|time| format!("--stop {time}")).collect();
+    changes.extend(args.sets.iter().map(|set| format!("--set {set}")));
+    let bounds = Bounds::new(case, own, &changes);
+    let command = [vec![command_of(&key)], changes].concat().join(" ");
     Ok((Request { key, scene, threads: args.threads, command }, bounds))
 }
 
@@ -254,8 +278,6 @@ fn changed(
         *density = scene.density();
     }
     note_idle(&args.sets, &scene);
-    if !scene.same_problem(&plain) {
-        say("note: the problem was changed, the norms still compare with the answer to the case");
-    }
+    note_changes(case, &scene, plain);
     Ok(scene)
 }

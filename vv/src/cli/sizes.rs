@@ -28,7 +28,8 @@ pub(super) fn no_size(case: &dyn Case, key: &RunKey, error: &SceneError) -> Fail
             format!("the largest that it can have is {}", largest(case.default_size(), n, fits))
         }
     };
-    Failure::usage(format!("`{}` cannot have --n {n}: {error}; {advice}", case.id()))
+    let (n, why) = (grouped(n as u64), with_groups(&error.to_string()));
+    Failure::usage(format!("`{}` cannot have --n {n}: {why}; {advice}", case.id()))
 }
 
 /// The largest size that fits, between one that does and one that does not.
@@ -90,17 +91,29 @@ fn outlook(
     }
 }
 
-/// A count with its digits in groups of three.
-fn grouped(count: u64) -> String {
-    let digits = count.to_string();
+/// A count with its digits in groups of three, if it has more than four.
+pub(super) fn grouped(count: u64) -> String {
+    in_groups(&count.to_string())
+}
+
+/// Digits in groups of three, if there are more than four.
+fn in_groups(digits: &str) -> String {
     let mut out = String::new();
     for (k, digit) in digits.chars().enumerate() {
-        if k > 0 && (digits.len() - k).is_multiple_of(3) {
+        if digits.len() > 4 && k > 0 && (digits.len() - k).is_multiple_of(3) {
             out.push(' ');
         }
         out.push(digit);
     }
     out
+}
+
+/// A text with the digits of its whole numbers in groups.
+fn with_groups(text: &str) -> String {
+    let number = |word: &str| word.chars().all(|c| c.is_ascii_digit());
+    let words =
+        text.split(' ').map(|word| if number(word) { in_groups(word) } else { word.into() });
+    words.collect::<Vec<String>>().join(" ")
 }
 
 #[cfg(test)]

@@ -37,6 +37,12 @@ pub struct OrderFit {
 }
 
 impl OrderFit {
+    /// Whether the errors have an order at all: not where its interval is wider than itself.
+    #[must_use]
+    pub fn is_order(&self) -> bool {
+        self.interval.1 - self.interval.0 <= self.order.abs()
+    }
+
     /// Whether `order` lies in the 95 % interval.
     #[must_use]
     pub fn contains(&self, order: f64) -> bool {

@@ -215,7 +215,10 @@ fn orders_table(case: &dyn Case, runs: &[&RunRecord]) -> Option<Table> {
                 variant.into(),
                 (*title).into(),
                 pairwise.join(", ").into(),
-                Cell::number(fit.order, 4),
+                match Cell::number(fit.order, 4) {
+                    order if fit.is_order() => order,
+                    none => Cell { text: "no order".into(), ..none },
+                },
                 Cell::number(fit.standard_error, 2),
                 format!("{} to {}", sig(low, 3), sig(high, 3)).into(),
             ]);

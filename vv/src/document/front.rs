@@ -125,10 +125,12 @@ fn claim_row(verdict: &Verdict) -> Vec<Cell> {
     let found = match (verdict.value, &verdict.fit) {
         (Some(value), Some(fit)) => {
             let (low, high) = fit.interval;
-            let text = format!("{} [{}, {}]", sig(value, 4), sig(low, 4), sig(high, 4));
+            let none = if fit.is_order() { "" } else { "no order: " };
+            let found = verdict.found(4);
+            let text = format!("{none}{found} [{}, {}]", sig(low, 4), sig(high, 4));
             Cell { text, value: Some(value), status: None }
         }
-        (Some(value), None) => Cell::number(value, 5),
+        (Some(value), None) => Cell { text: verdict.found(5), ..Cell::number(value, 5) },
         (None, _) if verdict.status == Judged::Fail => verdict.note.clone().into(),
         (None, _) => "–".into(),
     };
@@ -153,7 +155,7 @@ fn claim_row(verdict: &Verdict) -> Vec<Cell> {
         what.into(),
         kind.into(),
         found,
-        claim.wanted.text().into(),
+        verdict.wanted().into(),
         Cell { status, ..Cell::text(word) },
         source.into(),
     ]
@@ -179,7 +181,8 @@ pub(super) fn reading() -> Section {
         "*Required* claims decide the verdict. A *goal* goes beyond them. A *shown* claim states a known \
          limit of the preset that it names: its failure is expected and stands here with its figure.",
         "*In sample*: a constant of the method was chosen by looking at this number.",
-        "Orders are fitted by least squares over all sizes; the interval in brackets is 95 %. Shocks \
+        "Orders are fitted by least squares over all sizes; the interval in brackets is 95 %; where it is \
+         wider than the order itself the errors are said to have *no order*. Shocks \
          are captured over a fixed number of particles, so that RMS norms converge with order 1/2 and \
          L1 norms with order 1 at best.",
     ];
@@ -230,7 +233,9 @@ pub(super) fn conservation(records: &Records) -> Section {
         caption: "Balance of energy and momentum, work and impulse of the boundaries taken off. \
                   Energy: largest error over the run relative to the initial kinetic energy, or to \
                   the work of the boundaries, or to the initial energy, whichever is first not zero. \
-                  Mass is conserved exactly: particles are neither made nor deleted."
+                  Mass is conserved exactly: particles are neither made nor deleted. What limits the \
+                  time steps of a run in three dimensions stands in the `ledger.csv` that `whipple run \
+                  --out` writes."
             .into(),
         columns,
         rows: rows.collect(),
@@ -255,7 +260,7 @@ fn named(record: &RunRecord) -> String {
 /// The limiters that decided at least a hundredth of the steps, with their shares.
 fn limited_by(record: &RunRecord) -> String {
     let Some(decided) = record.limiters else {
-        return "–".into();
+        return String::new();
     };
     let all = [
         ("sound", decided.sound),

@@ -70,6 +70,23 @@ fn a_damaged_newest_is_passed_over_and_told() {
     assert!(error.starts_with("section `v.x`: BLAKE3"), "{error}");
 }
 
+/// A run that goes on from the last whole one must not lose it to a damaged one.
+#[test]
+fn a_damaged_one_is_none_of_the_last_two() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    save_next(folder, &at_step(1)).unwrap();
+    let cut = save_next(folder, &at_step(2)).unwrap();
+    let bytes = fs::read(&cut).unwrap();
+    fs::write(&cut, &bytes[..bytes.len() - 1]).unwrap();
+    save_next(folder, &at_step(3)).unwrap();
+    let kept = [1, 2, 3].map(|k| format!("checkpoint-{k:06}.whp"));
+    assert_eq!(names(folder), kept);
+    // With two whole ones after it, it goes, and so does the damaged one.
+    save_next(folder, &at_step(4)).unwrap();
+    assert_eq!(names(folder), ["checkpoint-000003.whp", "checkpoint-000004.whp"]);
+}
+
 #[test]
 fn another_scene_is_not_passed_over() {
     let folder = tempfile::tempdir().unwrap();

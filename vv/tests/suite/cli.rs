@@ -133,6 +133,8 @@ fn wrong_input_is_refused() {
         refusal(&["run", "noh", "--set", "cfl=nan"]),
         refusal(&["run", "noh", "--set", "cfl"]),
         refusal(&["run", "noh", "--set", "clf=0.1"]),
+        refusal(&["run", "noh", "--set", "cfl=0.1", "--set", "method.cfl=0.2"]),
+        refusal(&["run", "noh", "--set", "visc_hourglass=0.1"]),
         refusal(&["run", "noh", "--set", "visc_linear=1e9"]),
         refusal(&["run", "planar-impact", "--set", "visc_linear=1e9"]),
         refusal(&["run", "planar-impact", "--set", "visc_hourglass=5"]),
@@ -309,6 +311,45 @@ fn results_are_written() {
     assert_eq!(fields.lines().count(), 21);
     let entries = std::fs::read_dir(folder.path().join("deep/out")).expect("the folder").count();
     assert_eq!(entries, 3, "no temporary file is left");
+}
+
+/// A folder is for one run: that made again replaces its own, another is refused before it starts.
+#[test]
+fn folder_of_another_run_is_refused() {
+    let folder = folder();
+    let run = |args: &[&str]| {
+        let said = said(folder.path(), &[&["run"], args, &["--out", "x"]].concat());
+        (said.code, said.err)
+    };
+    let record = || std::fs::read(folder.path().join("x/record.json")).expect("a record");
+    let own = ["noh", "--n", "20"];
+    for _ in 0..2 {
+        assert_eq!(run(&own), (Some(0), String::new()));
+    }
+    // Otherwise said, the same.
+    assert_eq!(run(&["noh", "--n", "20", "--density", "hybrid"]), (Some(0), String::new()));
+    let kept = record();
+    let wanted = "error: x holds another run, `whipple run noh --n 20`: name another folder with --out, or \
+                  move that one away\n";
+    for other in [
+        &["sod", "--n", "20"][..],
+        &["noh", "--n", "21"],
+        &["noh", "--n", "20", "--preset", "paper"],
+        &["noh", "--n", "20", "--set", "cfl=0.1"],
+        &["noh", "--n", "20", "--stop", "0.1"],
+        &["noh", "--n", "20", "--godunov"],
+        &["planar-impact", "--n", "16"],
+    ] {
+        let (code, err) = run(other);
+        let last = err.split_inclusive('\n').next_back();
+        assert_eq!((code, last), (Some(2), Some(wanted)), "{other:?}");
+        assert_eq!(err.matches("error:").count(), 1, "{err}");
+    }
+    assert!(record() == kept, "nothing is overwritten");
+    std::fs::write(folder.path().join("x/record.json"), "{}").expect("a file");
+    let (code, err) = run(&own);
+    assert_eq!(code, Some(2));
+    assert!(err.starts_with("error: x/record.json is not a record of format "), "{err}");
 }
 
 /// A full disk is said to be one, whether results go to a device or to standard output.

@@ -91,6 +91,9 @@ pub fn norm(key: &RunKey, name: &str) -> f64 {
 /// The program with arguments.
 pub fn whipple(args: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_whipple"));
+    // Messages name the program as it was called.
+    #[cfg(unix)]
+    std::os::unix::process::CommandExt::arg0(&mut command, "whipple");
     command.args(args).env("NO_COLOR", "1").env_remove("CLICOLOR_FORCE").env("COLUMNS", "100");
     command
 }

@@ -259,6 +259,15 @@ fn checkpoints_are_written_along_the_way() {
         all.filter(|name| name.ends_with(".whp")).collect::<Vec<String>>()
     };
     assert_eq!(kept(&plain), ["checkpoint-000001.whp"]);
+    // A checkpoint alone says whose folder it is.
+    fs::rename(plain.join("record.json"), at.join("aside.json")).expect("it moves");
+    for args in [&["run", "sod", "--n", "20"][..], &["run", "planar-impact", "--n", "16"]] {
+        let refused = said(at, &[args, &["--out", "plain"]].concat());
+        assert_eq!(refused.code, Some(2));
+        let begin = "error: plain holds another run, `whipple run long-rod --variant viscosity-1 ";
+        assert!(errors(&refused).starts_with(begin), "{}", refused.err);
+    }
+    fs::rename(at.join("aside.json"), plain.join("record.json")).expect("it moves");
     let [earlier, _] = kept(&often).try_into().expect("the last two");
     assert_same_run(&plain, &often);
     fs::remove_dir_all(&plain).expect("it goes away");
@@ -440,7 +449,7 @@ fn runs_that_cannot_go_on_are_refused() {
         // Hashes are those of scenes and times, which may change; so may the size of a time.
         let plain = |word: &str| {
             let bare = word.trim_end_matches([',', ';']);
-            let hash = bare.len() == 64 && bare.chars().all(|c| c.is_ascii_hexdigit());
+            let hash = bare.len() == 12 && bare.chars().all(|c| c.is_ascii_hexdigit());
             if hash { word.replace(bare, "HASH") } else { word.to_owned() }
         };
         let line = |line: &str| line.split(' ').map(plain).collect::<Vec<_>>().join(" ");
