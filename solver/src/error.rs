@@ -30,7 +30,8 @@ impl SceneError {
 
 /// A numerical failure, found in the step that makes it.
 ///
-/// The state of the simulation is then the one *before* that step, so that it can be saved.
+/// Along a line the state of the simulation is then the one *before* that step, so that it can be saved. In
+/// space it is that within the step: whoever wants the last good one keeps it, as `Simulation::sections`.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum StepError {
     /// A state variable is not a finite number.

@@ -62,6 +62,8 @@ pub struct Simulation {
     pub(super) free_dt: f64,
     /// A step below this has collapsed, whatever the first one was.
     smallest_step: f64,
+    /// Longest step in which no body leaps through another that it does not touch yet.
+    leap: f64,
     /// Work of the particles on the elements' shear and tension so far.
     pub(super) element_work: f64,
     /// Heat of plastic flow and damage so far.
@@ -77,6 +79,22 @@ pub struct Simulation {
     instructions: Instructions,
     pub(super) asleep: bool,
     pub(super) volumes: bool,
+}
+
+/// Longest step in which two bodies come no nearer than by the contact length of the smaller particles: those
+/// farther apart than they see each other do not pass each other then.
+fn leap(mesh: &Mesh) -> f64 {
+    let mut longest = f64::INFINITY;
+    for (k, one) in mesh.bodies.iter().enumerate() {
+        for other in &mesh.bodies[..k] {
+            let apart: [f64; 3] = std::array::from_fn(|d| one.velocity[d] - other.velocity[d]);
+            let speed = apart.iter().map(|v| v * v).sum::<f64>().sqrt();
+            if speed > 0.0 {
+                longest = longest.min(one.length.min(other.length) / speed);
+            }
+        }
+    }
+    longest
 }
 
 impl Simulation {
@@ -136,6 +154,7 @@ impl Simulation {
             first_dt: 0.0,
             free_dt: 0.0,
             smallest_step: SMALLEST_STEP * scene.stop_time,
+            leap: leap(&mesh),
             element_work: 0.0,
             element_heat: 0.0,
             spring_work: 0.0,
@@ -312,7 +331,7 @@ impl Simulation {
         }
         let rate = self.demand.rate;
         let elements = if rate > 0.0 { 1.0 / rate } else { f64::INFINITY };
-        let mut dt = (self.method.cfl * sound.min(elements)).min(self.allowed.density);
+        let mut dt = (self.method.cfl * sound.min(elements)).min(self.allowed.density).min(self.leap);
         if self.dt > 0.0 {
             dt = dt.min(GROWTH * self.free_dt);
         } else {
@@ -325,7 +344,7 @@ impl Simulation {
             let particle = self.soonest();
             let value = dt;
             let limiter = if elements < sound {
-                "viscosity and stiffness of elements; sound crosses soonest"
+                "viscosity and stiffness of elements and contacts; sound crosses soonest"
             } else {
                 "sound or change of density"
             };

@@ -234,7 +234,8 @@ impl<F: Lanes> Eight<'_, F> {
         let uneven = F::load(derived.dilate, at) * ahead * (dt - kick);
         let rho = F::load(state.rho, at) + (rho_rate * kick - uneven);
         let (floored, packed) = (rho.lt(least).count_ones(), rho.gt(most).count_ones());
-        let rho = rho.max(least).min(most);
+        // What is no number, or has no end, stays so and is told: a bound would make a density of it.
+        let rho = rho.max(least).min(most) + rho * 0.0;
         let u = F::load(state.u, at) + gain;
         let u_rate = if kick > 0.0 { gain * (1.0 / kick) } else { F::zero() };
         rho.store(state.rho, at);

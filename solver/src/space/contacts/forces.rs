@@ -14,6 +14,10 @@ use crate::space::near::put;
 /// Overlap beyond which the force of a contact rises no more, as a share of the distance of contact.
 const DEEPEST: f64 = 0.8;
 
+/// Rate of damping over that which stops a particle in one step, before the safety of the step: both particles of
+/// a pair are damped.
+const DAMPING: f64 = 2.0;
+
 /// A pair in contact in this step.
 #[derive(Debug, Clone, Copy)]
 pub struct Active {
@@ -249,7 +253,7 @@ impl View<'_> {
             let coefficient = contact.drag * square / self.closing(contact);
             for i in contact.pair.map(|k| k as usize) {
                 sums[i] += coefficient / self.mesh.mass(i);
-                rate = rate.max(sums[i]);
+                rate = rate.max(DAMPING * sums[i]);
             }
         }
         for contact in damped {

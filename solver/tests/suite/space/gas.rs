@@ -81,6 +81,24 @@ fn a_density_without_volume_is_held_and_counted() {
     assert!(simulation.counters().packed > 0 && densest <= 2000.0, "{densest}");
 }
 
+/// What is no number ends the step that meets it, densities too, which have bounds.
+#[test]
+fn what_is_no_number_is_told() {
+    for (name, value) in [
+        ("state.rho", f64::NAN),
+        ("state.rho", f64::INFINITY),
+        ("state.u", f64::NAN),
+        ("state.vx", f64::NAN),
+    ] {
+        let mut simulation = start(&scene(vec![copper()], vec![block("copper", [4, 4, 4], 0.25)]));
+        let mut sections = simulation.sections();
+        change(&mut sections, name, |column| column[0] = value);
+        simulation.restore(&sections).expect("sections of its own");
+        let told = simulation.step(f64::INFINITY).expect_err("no number");
+        assert!(matches!(told, StepError::NotFinite { .. }), "{name} {value}: {told}");
+    }
+}
+
 /// What the least density of a solid holds is counted.
 #[test]
 fn the_floor_of_a_solid_is_counted() {

@@ -786,7 +786,7 @@ impl Plain {
             let p = &mut self.particles[i];
             p.touched = true;
             p.damped += nu / p.mass;
-            self.rate = self.rate.max(p.damped);
+            self.rate = self.rate.max(2.0 * p.damped);
             p.force = if k == 0 { add(p.force, force) } else { sub(p.force, force) };
         }
         self.contacts.push(Contact { pair, r, row, push, drag });

@@ -124,3 +124,15 @@ fn faces_too_wide_for_what_is_sought_are_refused() {
     let refused = start(vec![far, uneven]).expect_err("corners out of reach").to_string();
     assert!(refused.starts_with("`bodies.1.mapping` is corners"), "{refused}");
 }
+
+/// However fast a block comes from beyond where blocks see each other, it meets the other and does not leap
+/// through it.
+#[test]
+fn bodies_do_not_leap_through_each_other() {
+    let still = block("copper", [3, 3, 3], 0.1);
+    let fast = Body { centre: [-1.0, 0.0, 0.0], velocity: [100.0, 0.0, 0.0], ..still.clone() };
+    let mut simulation = start(&scene(vec![copper()], vec![still, fast]));
+    // Until the second would have passed the first by its own length, if nothing ends the run before.
+    let met = simulation.advance_to(0.016).is_err() || simulation.holdings()[0].momentum[0] > 0.0;
+    assert!(met, "{:?}", simulation.holdings()[0].momentum);
+}
