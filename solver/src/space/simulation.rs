@@ -331,7 +331,8 @@ impl Simulation {
         }
         let rate = self.demand.rate;
         let elements = if rate > 0.0 { 1.0 / rate } else { f64::INFINITY };
-        let mut dt = (self.method.cfl * sound.min(elements)).min(self.allowed.density).min(self.leap);
+        let mut dt =
+            (self.method.cfl * sound.min(elements)).min(self.allowed.density).min(self.leap);
         if self.dt > 0.0 {
             dt = dt.min(GROWTH * self.free_dt);
         } else {

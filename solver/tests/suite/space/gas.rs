@@ -1,5 +1,6 @@
 //! Gases: elements that live on however they are deformed, and densities without a floor.
 
+use whipple_solver::error::StepError;
 use whipple_solver::method::Viscosity;
 use whipple_solver::space::Simulation;
 use whipple_solver::space::restart::{Section, Values};
