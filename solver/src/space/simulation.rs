@@ -305,11 +305,13 @@ impl Simulation {
         self.demand = even.and(odd);
         self.element_heat += self.demand.heat;
         let columns = (&self.state, &self.derived);
+        // What the longest next kick bears; before the first step nothing is known of it.
+        let damping = self.method.cfl / (GROWTH * self.dt.max(self.free_dt));
         enter(Phase::Contacts);
         let contacts = self.contacts.push(
             &self.mesh,
             columns,
-            (&self.method, self.dt),
+            (&self.method, self.dt, damping),
             (&mut self.sums, &mut self.touched, &mut self.active),
         );
         enter(Phase::Springs);

@@ -14,8 +14,7 @@ use crate::space::near::put;
 /// Overlap beyond which the force of a contact rises no more, as a share of the distance of contact.
 const DEEPEST: f64 = 0.8;
 
-/// Rate of damping over that which stops a particle in one step, before the safety of the step: both particles of
-/// a pair are damped.
+/// Rate at which a pair of equals is damped over that of either: both are.
 const DAMPING: f64 = 2.0;
 
 /// A pair in contact in this step.
@@ -92,13 +91,14 @@ impl Contacts {
         2 * pairs.len() as u64
     }
 
-    /// Forces, conduction and the marks of touched particles. Returns the inverse of the longest step that
-    /// their viscosity bears: of all contacts of the particle that is damped the fastest.
+    /// Forces, conduction over the last step, of length `dt`, and the marks of touched particles. The viscosity of
+    /// all contacts of a particle damps it at the rate `most`, if that is the less: what stops it in a step
+    /// needs to be no more viscous. Returns the largest rate of damping.
     pub fn push(
         &mut self,
         mesh: &Mesh,
         (state, derived): (&State, &Derived),
-        (method, dt): (&Method, f64),
+        (method, dt, most): (&Method, f64, f64),
         (sums, touched, active): (&mut Sums, &mut [bool], &mut [bool]),
     ) -> f64 {
         let kernel = self.kernel.as_ref();
@@ -121,7 +121,7 @@ impl Contacts {
                 }
             }
         });
-        let rate = view.damping(self.blocks.iter().flatten(), &mut sums.rho_rate);
+        let rate = view.damp(&mut self.blocks, most, &mut sums.rho_rate);
         for contact in self.blocks.iter().flatten() {
             let [i, j] = contact.pair.map(|k| k as usize);
             let force = contact.push[0] + contact.push[1] + contact.drag;
@@ -166,6 +166,11 @@ impl Contacts {
             heat[j] += dt * (active.push[1] + half) * closing;
         }
     }
+}
+
+/// Contacts with a viscous force.
+fn damped(blocks: &mut [Vec<Active>]) -> impl Iterator<Item = &mut Active> {
+    blocks.iter_mut().flatten().filter(|contact| contact.drag > 0.0)
 }
 
 impl View<'_> {
@@ -239,27 +244,29 @@ impl View<'_> {
         Some(active)
     }
 
-    /// Largest rate at which the viscosity of all contacts of a particle damps it. `sums` is nothing before
-    /// and after: rates of density, which are summed there, are not known yet.
-    fn damping<'a>(
-        &self,
-        contacts: impl Iterator<Item = &'a Active> + Clone,
-        sums: &mut [f64],
-    ) -> f64 {
-        let damped = contacts.filter(|contact| contact.drag > 0.0);
+    /// Lessens viscous forces so that all those of a particle damp it at the rate `most` or slower. Returns the
+    /// largest rate. `sums` is nothing before and after: rates of density, which are summed there, are not known
+    /// yet.
+    fn damp(&self, blocks: &mut [Vec<Active>], most: f64, sums: &mut [f64]) -> f64 {
         let mut rate = 0.0f64;
-        for contact in damped.clone() {
+        for contact in damped(blocks) {
             let square: f64 = contact.r.iter().map(|r| r * r).sum();
-            let coefficient = contact.drag * square / self.closing(contact);
+            let coefficient = DAMPING * contact.drag * square / self.closing(contact);
             for i in contact.pair.map(|k| k as usize) {
                 sums[i] += coefficient / self.mesh.mass(i);
-                rate = rate.max(DAMPING * sums[i]);
+                rate = rate.max(sums[i]);
             }
         }
-        for contact in damped {
+        if rate > most {
+            for contact in damped(blocks) {
+                let [i, j] = contact.pair.map(|k| k as usize);
+                contact.drag *= (most / sums[i].max(sums[j])).min(1.0);
+            }
+        }
+        for contact in damped(blocks) {
             contact.pair.into_iter().for_each(|i| sums[i as usize] = 0.0);
         }
-        rate
+        rate.min(most)
     }
 
     /// Closing rate of `r^2 / 2`.

@@ -466,6 +466,7 @@ impl Plain {
         for (i, energy) in self.renew_springs() {
             self.particles[i].heat += energy;
         }
+        self.slacken();
         self.spring();
         let before = self.dt;
         self.dt = self.elect();
@@ -785,11 +786,25 @@ impl Plain {
         for (k, i) in pair.into_iter().enumerate() {
             let p = &mut self.particles[i];
             p.touched = true;
-            p.damped += nu / p.mass;
-            self.rate = self.rate.max(2.0 * p.damped);
+            p.damped += 2.0 * nu / p.mass;
             p.force = if k == 0 { add(p.force, force) } else { sub(p.force, force) };
         }
         self.contacts.push(Contact { pair, r, row, push, drag });
+    }
+
+    /// Takes back what contacts damp particles with beyond what stops them.
+    fn slacken(&mut self) {
+        let most = self.method.cfl / (1.05 * self.dt.max(self.free));
+        for contact in &mut self.contacts {
+            let rate = contact.pair.map(|i| self.particles[i].damped);
+            let left = (most / rate[0].max(rate[1])).min(1.0);
+            let force = times(contact.r, contact.drag * (1.0 - left));
+            contact.drag *= left;
+            let [i, j] = contact.pair;
+            self.particles[i].force = sub(self.particles[i].force, force);
+            self.particles[j].force = add(self.particles[j].force, force);
+            self.rate = self.rate.max(rate[0].max(rate[1]).min(most));
+        }
     }
 
     /// Corners of the faces that live elements of a body do not share, and their elements.
