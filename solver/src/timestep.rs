@@ -88,7 +88,7 @@ impl Vote {
 }
 
 /// Steps decided by each limiter.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Decided {
     /// By [`Limiter::Sound`].
     pub sound: u64,
@@ -103,6 +103,19 @@ pub struct Decided {
 }
 
 impl Decided {
+    /// With short names.
+    #[must_use]
+    pub fn named(self) -> [(&'static str, u64); 5] {
+        let Self { sound, closing, diffusion, load, landing } = self;
+        [
+            ("sound", sound),
+            ("closing", closing),
+            ("diffusion", diffusion),
+            ("load", load),
+            ("landing", landing),
+        ]
+    }
+
     pub(crate) fn count(&mut self, limiter: Limiter) {
         *match limiter {
             Limiter::Sound => &mut self.sound,

@@ -11,7 +11,6 @@ use whipple_solver::audit::Ledger;
 use whipple_solver::counters::Counters;
 use whipple_solver::method::{Density, Preset};
 use whipple_solver::space::ledger::Balance;
-use whipple_solver::timestep::Decided;
 
 use crate::scene::AnyScene;
 use crate::space::measured::Photo;
@@ -211,8 +210,8 @@ pub struct RunRecord {
     pub norms: BTreeMap<String, f64>,
     /// Work done; absent for the Godunov code.
     pub counters: Option<Counters>,
-    /// How often each limiter decided the step; absent for the Godunov code.
-    pub limiters: Option<Decided>,
+    /// Steps that each limiter has decided, by name; absent for the Godunov code.
+    pub limiters: Option<BTreeMap<String, u64>>,
     /// Final balance; absent for the Godunov code.
     pub ledger: Option<Ledger>,
     /// What only runs in space have.

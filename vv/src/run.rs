@@ -309,6 +309,12 @@ fn eulerian(case: &dyn Case, mut record: RunRecord) -> Result<Run, RunError> {
     Ok(Run::new(record, None))
 }
 
+/// Steps by the name of what decided them, without what decided none.
+fn limiters(decided: impl IntoIterator<Item = (&'static str, u64)>) -> BTreeMap<String, u64> {
+    let some = decided.into_iter().filter(|(_, steps)| *steps > 0);
+    some.map(|(name, steps)| (name.to_owned(), steps)).collect()
+}
+
 fn line(
     case: &dyn Case,
     scene: Scene,
@@ -337,7 +343,7 @@ fn line(
     record.energy_drift = ledger.energy_drift();
     record.momentum_drift = ledger.momentum_drift();
     record.counters = Some(counters);
-    record.limiters = Some(solver.decided());
+    record.limiters = Some(limiters(solver.decided().named()));
     record.ledger = Some(ledger);
     record.scene = Some(scene.into());
     Ok(Run::new(record, failure))

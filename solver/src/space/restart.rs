@@ -16,6 +16,7 @@ use super::lanes::{F8, LANES};
 use super::mesh::Group;
 use super::simulation::Simulation;
 use super::surfaces;
+use super::votes::{VOTERS, Voter};
 
 /// A named array.
 #[derive(Debug, Clone, PartialEq)]
@@ -319,21 +320,30 @@ impl Simulation {
         self.asleep = self.groups.iter().any(|group| !group.awake);
     }
 
-    /// Time, and what the next step's length depends on.
-    fn clock(&self) -> [f64; 8] {
-        let Self { time, dt, kick, first_dt, free_dt, allowed, demand, .. } = self;
-        [*time, *dt, *kick, *first_dt, *free_dt, allowed.sound, allowed.density, demand.rate]
+    /// Time, what the next step's length depends on, and what was allowed the last one.
+    fn clock(&self) -> [f64; 7 + VOTERS] {
+        let Self { time, dt, kick, first_dt, free_dt, allowed, votes, .. } = self;
+        let mut clock = [0.0; 7 + VOTERS];
+        clock[..7].copy_from_slice(&[
+            *time,
+            *dt,
+            *kick,
+            *first_dt,
+            *free_dt,
+            allowed.sound,
+            allowed.density,
+        ]);
+        clock[7..].copy_from_slice(&votes.allowed);
+        clock
     }
 
     fn set_clock(&mut self, clock: &[f64]) {
-        let Ok([time, dt, kick, first, free, sound, density, rate]) = <[f64; 8]>::try_from(clock)
-        else {
-            return;
-        };
+        let Ok(clock) = <[f64; 7 + VOTERS]>::try_from(clock) else { return };
+        let [time, dt, kick, first, free, sound, density, allowed @ ..] = clock;
         (self.time, self.dt, self.kick) = (time, dt, kick);
         (self.first_dt, self.free_dt) = (first, free);
         (self.allowed.sound, self.allowed.density) = (sound, density);
-        self.demand.rate = rate;
+        self.votes.allowed = allowed;
     }
 
     /// What the balance has booked, and what the scene held at the start.
@@ -389,10 +399,11 @@ impl Simulation {
         (h.momentum_scale, h.angular_scale) = (b[24], b[25]);
     }
 
-    /// Counters, and the first of the particles that decide the next step.
-    fn counts(&self) -> [u64; 10] {
+    /// Counters, the first of the particles that decide the next step, and who decided the last one and all so far.
+    fn counts(&self) -> [u64; 11 + VOTERS] {
         let c = &self.counters;
-        [
+        let mut counts = [0; 11 + VOTERS];
+        counts[..11].copy_from_slice(&[
             c.steps,
             c.particle_steps,
             c.stages,
@@ -403,11 +414,14 @@ impl Simulation {
             c.floored,
             c.packed,
             self.allowed.first as u64,
-        ]
+            self.votes.last.map_or(VOTERS as u64, |voter| voter as u64),
+        ]);
+        counts[11..].copy_from_slice(&self.votes.decided);
+        counts
     }
 
     fn set_counts(&mut self, counts: &[u64]) {
-        let Ok(c) = <[u64; 10]>::try_from(counts) else { return };
+        let Ok(c) = <[u64; 11 + VOTERS]>::try_from(counts) else { return };
         self.counters = crate::counters::Counters {
             steps: c[0],
             particle_steps: c[1],
@@ -420,5 +434,7 @@ impl Simulation {
             packed: c[8],
         };
         self.allowed.first = c[9] as usize;
+        self.votes.last = Voter::ALL.get(c[10] as usize).copied();
+        self.votes.decided.copy_from_slice(&c[11..]);
     }
 }

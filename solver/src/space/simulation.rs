@@ -15,6 +15,7 @@ use super::phase::Phase;
 use super::scene::Scene;
 use super::surfaces::Surfaces;
 use super::sweep::{Allowed, Particles, Respond, Stage};
+use super::votes::{Voter, Votes};
 use super::walls::{Given, Wall};
 use crate::counters::Counters;
 use crate::error::{SceneError, StepError};
@@ -51,7 +52,10 @@ pub struct Simulation {
     touched: Vec<bool>,
     /// What the last evaluation of the equation of state allows.
     pub(super) allowed: Allowed,
-    pub(super) demand: Demand,
+    demand: Demand,
+    /// Largest rates of contacts and of springs: inverse steps.
+    pushed: [f64; 2],
+    pub(super) votes: Votes,
     pub(super) time: f64,
     /// Length of the last drift.
     pub(super) dt: f64,
@@ -147,6 +151,8 @@ impl Simulation {
             touched: vec![false; mesh.len],
             allowed: Allowed::ANYTHING,
             demand: Demand::NONE,
+            pushed: [0.0; 2],
+            votes: Votes::default(),
             method: scene.method,
             time: 0.0,
             dt: 0.0,
@@ -321,7 +327,7 @@ impl Simulation {
             (&self.method, self.dt.max(self.free_dt)),
             (&mut self.sums, &mut self.touched, &mut self.active),
         );
-        self.demand.rate = self.demand.rate.max(contacts).max(rate);
+        self.pushed = [contacts, rate];
         self.spring_heat += heat;
     }
 
@@ -331,40 +337,37 @@ impl Simulation {
         for body in &self.mesh.bodies {
             sound = sound.min(CROSSING * body.edge() / body.solid.sound);
         }
-        let rate = self.demand.rate;
-        let elements = if rate > 0.0 { 1.0 / rate } else { f64::INFINITY };
-        let mut dt =
-            (self.method.cfl * sound.min(elements)).min(self.allowed.density).min(self.leap);
-        if self.dt > 0.0 {
-            dt = dt.min(GROWTH * self.free_dt);
-        } else {
+        let cfl = self.method.cfl;
+        let [contacts, springs] = self.pushed;
+        let after = |rate: f64| if rate > 0.0 { cfl / rate } else { f64::INFINITY };
+        let growth = if self.dt > 0.0 { GROWTH * self.free_dt } else { f64::INFINITY };
+        let dt = self.votes.cast([
+            (Voter::Sound, cfl * sound),
+            (Voter::Density, self.allowed.density),
+            (Voter::Elements, after(self.demand.rate)),
+            (Voter::Contacts, after(contacts)),
+            (Voter::Springs, after(springs)),
+            (Voter::Leap, self.leap),
+            (Voter::Growth, growth),
+        ]);
+        if self.dt == 0.0 {
             // In cold gas nothing limits it.
             self.first_dt = dt.min(self.smallest_step / SMALLEST_STEP);
         }
         self.free_dt = dt;
         let floor = (COLLAPSED * self.first_dt).max(self.smallest_step);
         if dt.is_nan() || dt < floor {
-            let particle = self.soonest();
-            let value = dt;
-            let limiter = if elements < sound {
-                "viscosity and stiffness of elements and contacts; sound crosses soonest"
-            } else {
-                "sound or change of density"
-            };
-            return Err(StepError::TimeStep { particle, time: self.time, value, floor, limiter });
+            let (particle, time, value) = (self.soonest(), self.time, dt);
+            let limiter = self.votes.last.map_or("nothing", Voter::cause);
+            return Err(StepError::TimeStep { particle, time, value, floor, limiter });
         }
         // The kick also takes half of the last drift: where that was much longer, a shorter one follows.
-        let bearable = 2.0 * dt / self.method.cfl - self.dt;
-        let dt = dt.min(bearable.max(LEAST_PART * dt));
+        let bearable = (2.0 * dt / cfl - self.dt).max(LEAST_PART * dt);
+        let dt = self.votes.shorten(dt, Voter::Kick, bearable);
         let left = until - self.time;
         // The last two steps share what is left, so that none is tiny.
-        Ok(if dt >= left {
-            left
-        } else if 2.0 * dt > left {
-            0.5 * left
-        } else {
-            dt
-        })
+        let share = if dt >= left { left } else { 0.5 * left };
+        Ok(if 2.0 * dt > left { self.votes.shorten(dt, Voter::Landing, share) } else { dt })
     }
 
     /// Sets the length of the step; walls push what would cross them.
@@ -499,6 +502,7 @@ impl Simulation {
 
     fn count(&mut self) {
         self.counters.steps += 1;
+        self.votes.count();
         self.counters.particle_steps += self.moving() as u64;
         self.counters.pairs += self.contacts.pairs() as u64;
         self.counters.floored += u64::from(self.allowed.floored);
@@ -559,10 +563,10 @@ impl Simulation {
         self.dt
     }
 
-    /// Longest steps that loose particles, the change of density and elements allow, before safety.
+    /// Votes on the last step, and who decided those so far.
     #[must_use]
-    pub fn allowed(&self) -> [f64; 3] {
-        [self.allowed.sound, self.allowed.density, 1.0 / self.demand.rate]
+    pub fn votes(&self) -> &Votes {
+        &self.votes
     }
 
     /// Elements that have failed, and those of them that are no volume any more.

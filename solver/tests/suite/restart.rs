@@ -92,7 +92,7 @@ fn assert_equal(one: &Simulation, other: &Simulation, when: &str) {
         assert_eq!(at, None, "{when}: section `{name}`");
     }
     assert_eq!(one.balance(), other.balance(), "{when}");
-    assert_eq!(one.allowed(), other.allowed(), "{when}");
+    assert_eq!(one.votes(), other.votes(), "{when}");
     assert_eq!(one.counters(), other.counters(), "{when}");
     assert!(one.all_particles().eq(other.all_particles()), "{when}");
     assert!(one.all_elements().eq(other.all_elements()), "{when}");

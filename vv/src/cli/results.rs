@@ -33,7 +33,7 @@ struct Summary<'a> {
     momentum_drift: f64,
     norms: &'a BTreeMap<String, f64>,
     counters: Option<whipple_solver::counters::Counters>,
-    limiters: Option<whipple_solver::timestep::Decided>,
+    limiters: Option<&'a BTreeMap<String, u64>>,
     #[serde(flatten)]
     space: Option<SpaceSummary>,
     provenance: &'a crate::record::Provenance,
@@ -98,7 +98,7 @@ pub(super) fn json(record: &RunRecord) -> Result<String, Failure> {
         momentum_drift: record.momentum_drift,
         norms: &record.norms,
         counters: record.counters,
-        limiters: record.limiters,
+        limiters: record.limiters.as_ref(),
         space: SpaceSummary::new(record),
         provenance: &record.provenance,
     };

@@ -233,9 +233,9 @@ pub(super) fn conservation(records: &Records) -> Section {
         caption: "Balance of energy and momentum, work and impulse of the boundaries taken off. \
                   Energy: largest error over the run relative to the initial kinetic energy, or to \
                   the work of the boundaries, or to the initial energy, whichever is first not zero. \
-                  Mass is conserved exactly: particles are neither made nor deleted. What limits the \
-                  time steps of a run in three dimensions stands in the `ledger.csv` that `whipple run \
-                  --out` writes."
+                  Mass is conserved exactly: particles are neither made nor deleted. What votes on the \
+                  time steps of a run in three dimensions, and how, stands in the `ledger.csv` that `whipple \
+                  run --out` writes."
             .into(),
         columns,
         rows: rows.collect(),
@@ -257,25 +257,17 @@ fn named(record: &RunRecord) -> String {
     }
 }
 
-/// The limiters that decided at least a hundredth of the steps, with their shares.
+/// The limiters that decided at least a hundredth of the steps, with their shares, the most frequent first.
 fn limited_by(record: &RunRecord) -> String {
-    let Some(decided) = record.limiters else {
+    let Some(decided) = &record.limiters else {
         return String::new();
     };
-    let all = [
-        ("sound", decided.sound),
-        ("closing", decided.closing),
-        ("diffusion", decided.diffusion),
-        ("load", decided.load),
-        ("landing", decided.landing),
-    ];
-    let total: u64 = all.iter().map(|(_, n)| n).sum();
+    let total: u64 = decided.values().sum();
     let share = |n: u64| 100.0 * n as f64 / total.max(1) as f64;
-    let parts: Vec<String> = all
-        .into_iter()
-        .filter(|&(_, n)| share(n) >= 1.0)
-        .map(|(name, n)| format!("{name} {} %", sig(share(n), 2)))
-        .collect();
+    let mut often: Vec<_> = decided.iter().filter(|&(_, &n)| share(n) >= 1.0).collect();
+    often.sort_by_key(|&(_, &n)| std::cmp::Reverse(n));
+    let parts: Vec<String> =
+        often.into_iter().map(|(name, &n)| format!("{name} {} %", sig(share(n), 2))).collect();
     parts.join(", ")
 }
 

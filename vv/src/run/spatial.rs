@@ -324,6 +324,7 @@ pub(super) fn in_space(
     record.energy_drift = worst.energy;
     record.momentum_drift = worst.momentum;
     record.counters = Some(counters);
+    record.limiters = Some(super::limiters(solver.votes().named()));
     record.space = Some(SpaceRecord {
         particles: solver.particles(),
         elements: solver.elements(),

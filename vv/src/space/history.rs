@@ -4,18 +4,21 @@
 use std::path::{Path, PathBuf};
 
 use whipple_solver::space::ledger::Holdings;
+use whipple_solver::space::votes::Voter;
 use whipple_solver::space::{Scene, Simulation};
 
 use crate::files::{FileError, write_atomic};
 
 /// Columns that are there once, before those of the bodies.
-const COLUMNS: [&str; 14] = [
+const COLUMNS: [&str; 16] = [
     "time",
     "step",
     "dt",
     "dt_sound",
     "dt_density",
     "dt_elements",
+    "dt_contacts",
+    "dt_springs",
     "limiter",
     "failed_elements",
     "dead_elements",
@@ -83,7 +86,6 @@ pub enum HistoryError {
 pub struct History {
     path: PathBuf,
     head: String,
-    cfl: f64,
     /// Lines with their times.
     rows: Vec<(f64, String)>,
 }
@@ -92,8 +94,7 @@ impl History {
     /// The history of a new run, in a file at `path`. Nothing is written before [`History::save`].
     #[must_use]
     pub fn new(path: &Path, scene: &Scene) -> Self {
-        let cfl = scene.method.cfl;
-        Self { path: path.to_owned(), head: head(scene), cfl, rows: Vec::new() }
+        Self { path: path.to_owned(), head: head(scene), rows: Vec::new() }
     }
 
     /// The history of a run that goes on from a checkpoint of `time`: later rows are dropped.
@@ -129,7 +130,7 @@ impl History {
     pub fn record(&mut self, simulation: &Simulation) {
         let time = simulation.time();
         if self.rows.last().is_none_or(|(last, _)| *last < time) {
-            self.rows.push((time, row(simulation, self.cfl)));
+            self.rows.push((time, row(simulation)));
         }
     }
 
@@ -171,21 +172,8 @@ fn head(scene: &Scene) -> String {
     once.chain(held).collect::<Vec<String>>().join(",")
 }
 
-/// Share of the smallest vote below which a step has another reason: steps grow by a twentieth at most,
-/// and land on the times asked for.
-const FREE: f64 = 0.94;
-
-/// What decided the last step, as the votes after it tell.
-fn limiter([sound, density, elements]: [f64; 3], cfl: f64, dt: f64) -> &'static str {
-    let votes = [("sound", cfl * sound), ("density", density), ("elements", cfl * elements)];
-    match votes.into_iter().min_by(|a, b| a.1.total_cmp(&b.1)) {
-        Some((name, least)) if dt >= FREE * least => name,
-        _ => "growth or landing",
-    }
-}
-
-fn row(simulation: &Simulation, cfl: f64) -> String {
-    let allowed = simulation.allowed();
+fn row(simulation: &Simulation) -> String {
+    let votes = simulation.votes();
     let (failed, dead) = simulation.failed();
     let holdings = simulation.holdings();
     let balance = simulation.balance();
@@ -193,10 +181,12 @@ fn row(simulation: &Simulation, cfl: f64) -> String {
         number(simulation.time()),
         simulation.counters().steps.to_string(),
         number(simulation.last_step()),
-        number(allowed[0]),
-        number(allowed[1]),
-        number(allowed[2]),
-        limiter(allowed, cfl, simulation.last_step()).to_owned(),
+        number(votes.of(Voter::Sound)),
+        number(votes.of(Voter::Density)),
+        number(votes.of(Voter::Elements)),
+        number(votes.of(Voter::Contacts)),
+        number(votes.of(Voter::Springs)),
+        votes.last.map_or("", Voter::name).to_owned(),
         failed.to_string(),
         dead.to_string(),
         simulation.pairs().to_string(),

@@ -93,7 +93,8 @@ impl Contacts {
 
     /// Forces, conduction over the last step, of length `dt`, and the marks of touched particles. The viscosity of
     /// all contacts of a particle damps it at the rate `most`, if that is the less: what stops it in a step
-    /// needs to be no more viscous. Returns the largest rate of damping.
+    /// needs to be no more viscous. Returns the inverse of the longest step that the viscosity bears, nothing where
+    /// it was lessened.
     pub fn push(
         &mut self,
         mesh: &Mesh,
@@ -245,7 +246,7 @@ impl View<'_> {
     }
 
     /// Lessens viscous forces so that all those of a particle damp it at the rate `most` or slower. Returns the
-    /// largest rate. `sums` is nothing before and after: rates of density, which are summed there, are not known
+    /// largest rate if none is. `sums` is nothing before and after: rates of density, which are summed there, are not known
     /// yet.
     fn damp(&self, blocks: &mut [Vec<Active>], most: f64, sums: &mut [f64]) -> f64 {
         let mut rate = 0.0f64;
@@ -257,7 +258,8 @@ impl View<'_> {
                 rate = rate.max(sums[i]);
             }
         }
-        if rate > most {
+        let lessened = rate > most;
+        if lessened {
             for contact in damped(blocks) {
                 let [i, j] = contact.pair.map(|k| k as usize);
                 contact.drag *= (most / sums[i].max(sums[j])).min(1.0);
@@ -266,7 +268,7 @@ impl View<'_> {
         for contact in damped(blocks) {
             contact.pair.into_iter().for_each(|i| sums[i as usize] = 0.0);
         }
-        rate.min(most)
+        if lessened { 0.0 } else { rate }
     }
 
     /// Closing rate of `r^2 / 2`.
