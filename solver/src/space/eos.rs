@@ -152,12 +152,12 @@ impl Eos {
         }
     }
 
-    /// Pressure, sound speed and temperature at a density and an internal energy per mass.
+    /// Pressure, sound speed and temperature at a density, with its inverse, and an internal energy per mass.
     #[inline(always)]
     #[must_use]
-    pub fn respond<F: Lanes>(&self, rho: F, u: F) -> Response<F> {
+    pub fn respond<F: Lanes>(&self, (rho, inverse): (F, F), u: F) -> Response<F> {
         match self {
-            Self::MieGruneisen(solid) => solid.respond(rho, u),
+            Self::MieGruneisen(solid) => solid.respond((rho, inverse), u),
             Self::IdealGas(gas) => gas.respond(rho, u),
         }
     }
@@ -165,9 +165,8 @@ impl Eos {
 
 impl MieGruneisen {
     #[inline(always)]
-    fn respond<F: Lanes>(&self, rho: F, u: F) -> Response<F> {
+    fn respond<F: Lanes>(&self, (rho, inverse): (F, F), u: F) -> Response<F> {
         let (zero, one) = (F::zero(), F::splat(1.0));
-        let inverse = one / rho;
         // Written so that both are exactly zero at the reference density.
         let mu = (rho - self.rho_0) * (1.0 / self.rho_0);
         let eta = (rho - self.rho_0) * inverse;
@@ -264,7 +263,7 @@ mod tests {
     }
 
     fn at(eos: &Eos, rho: f64, u: f64) -> (f64, f64) {
-        let r = eos.respond(F8::splat(rho), F8::splat(u));
+        let r = eos.respond((F8::splat(rho), F8::splat(1.0 / rho)), F8::splat(u));
         (r.pressure.0[0], r.sound_squared.0[0])
     }
 

@@ -228,7 +228,8 @@ impl<F: Lanes> Eight<'_, F> {
         // mean velocity, pressures would lag behind the positions and feed the fastest waves.
         let ahead = volume_rate - F::load(sums.volume_rate_before, at);
         let grip = F::load(derived.grip, at);
-        let gain = (F::load(sums.heat, at) - grip * volume_rate * kick) / self.mass;
+        let per_mass = F::splat(1.0) / self.mass;
+        let gain = (F::load(sums.heat, at) - grip * volume_rate * kick) * per_mass;
         // Half of a kick belongs to the drift before it and half to that after it: where they differ in length
         // as in velocity, the mean of both is not what the volume does.
         let uneven = F::load(derived.dilate, at) * ahead * (dt - kick);
@@ -260,7 +261,7 @@ impl<F: Lanes> Eight<'_, F> {
             F::zero().store(column, at);
         }
         let rho_rate = rho_rate - F::load(derived.dilate, at) * ahead;
-        let u_rate = u_rate - grip * ahead / self.mass;
+        let u_rate = u_rate - grip * ahead * per_mass;
         let left = if keep_rates { [u_rate, rho_rate] } else { [F::zero(); 2] };
         left[0].store(sums.heat, at);
         left[1].store(sums.rho_rate, at);
@@ -296,14 +297,15 @@ impl<F: Lanes> Eight<'_, F> {
         now: &Now<F>,
         (volume, volumes): (F, bool),
     ) -> Allowed {
-        let (zero, forever) = (F::zero(), F::splat(f64::INFINITY));
+        let zero = F::zero();
         let (at, rho) = (self.at, now.rho);
-        let response = self.body.eos.respond(rho, now.u);
+        let inverse = F::splat(1.0) / rho;
+        let response = self.body.eos.respond((rho, inverse), now.u);
         let reference = self.mass * (1.0 / self.body.rho_0);
         let least = reference * (SMALLEST * self.body.solid.least);
         let whole = (reference + self.ratio * volume).max(least);
         let dilate = (rho / whole).keep(self.ratio.gt(zero));
-        let per_density = response.pressure * self.mass / (rho * rho);
+        let per_density = response.pressure * self.mass * (inverse * inverse);
         let sound = response.sound_squared.sqrt();
         rho.store(derived.rho, at);
         response.pressure.store(derived.pressure, at);
@@ -319,13 +321,11 @@ impl<F: Lanes> Eight<'_, F> {
         } else {
             Mask::MAX
         };
-        let spacing = (F::splat(self.body.rho_0) / rho).min(F::splat(1.0));
-        let crossing = F::select(loose, spacing / sound.max(F::splat(1e-300)), forever);
-        let change = rho / now.rho_rate.abs().max(F::splat(1e-300));
-        let change = F::select(response.pressure.gt(zero), change, forever);
+        let crossing = (rho * (1.0 / self.body.rho_0)).max(F::splat(1.0)) * sound;
+        let change = now.rho_rate.abs() * inverse;
         Allowed {
-            sound: CROSSING * self.body.edge() * crossing.least(),
-            density: DENSEST_STEP * change.least(),
+            sound: CROSSING * self.body.edge() / crossing.keep(loose).largest(),
+            density: DENSEST_STEP / change.keep(response.pressure.gt(zero)).largest(),
             ..Allowed::ANYTHING
         }
     }

@@ -81,7 +81,7 @@ fn elements_name_their_particles() {
 
 /// Pressure, square of the sound speed and temperature.
 fn respond(material: &Material, rho: f64, u: f64) -> [f64; 3] {
-    let r = Eos::new(material).respond(F8([rho; 8]), F8([u; 8]));
+    let r = Eos::new(material).respond((F8([rho; 8]), F8([1.0 / rho; 8])), F8([u; 8]));
     [r.pressure, r.sound_squared, r.theta].map(|lanes| lanes.0[5])
 }
 
