@@ -323,9 +323,11 @@ impl<F: Lanes> Eight<'_, F> {
         };
         let crossing = (rho * (1.0 / self.body.rho_0)).max(F::splat(1.0)) * sound;
         let change = now.rho_rate.abs() * inverse;
+        // Nothing may be minus nothing.
+        let fastest = |rate: F| rate.largest().abs();
         Allowed {
-            sound: CROSSING * self.body.edge() / crossing.keep(loose).largest(),
-            density: DENSEST_STEP / change.keep(response.pressure.gt(zero)).largest(),
+            sound: CROSSING * self.body.edge() / fastest(crossing.keep(loose)),
+            density: DENSEST_STEP / fastest(change.keep(response.pressure.gt(zero))),
             ..Allowed::ANYTHING
         }
     }
