@@ -153,7 +153,7 @@ impl Case for FreeSurface {
     fn claims(&self) -> Vec<Claim> {
         let source = "release isentrope; tolerance of the study in three dimensions, 0.97 to 1.03";
         let must = Claims::new(ID, Kind::Verification, Weight::Must, source);
-        let aim = Claims { weight: Weight::Aim, source: "issue", ..must };
+        let aim = Claims { weight: Weight::Aim, source: wanted!(), ..must };
         let mut out = Vec::new();
         for variant in VARIANTS {
             let norm = |name| Quantity::Norm(default_run(ID, SIZES[1]).variant(variant), name);

@@ -3,6 +3,17 @@
 //! A case says what is to be simulated, what is measured, and what is claimed of it. It knows
 //! nothing of files, pages or the command line.
 
+/// Source of numbers that are wanted of this solver and stand in no reference: where a reader finds them,
+/// and what there is to say besides.
+macro_rules! wanted {
+    () => {
+        "README, Accuracy wanted"
+    };
+    ($more:literal) => {
+        concat!(wanted!(), "; ", $more)
+    };
+}
+
 mod beam;
 mod block_collision;
 mod einfeldt;

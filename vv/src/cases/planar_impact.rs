@@ -268,7 +268,7 @@ impl Case for PlanarImpact {
             ID,
             Kind::Verification,
             Weight::Must,
-            "issue; jump conditions; one set of viscosity constants for all",
+            wanted!("jump conditions; one set of viscosity constants for all"),
         );
         let mut out = Vec::new();
         let key = |v: &str| default_run(ID, SIZES[1]).variant(v);
@@ -294,7 +294,7 @@ impl Case for PlanarImpact {
                 }
             }
             let near = Claims {
-                source: "issue: noise behind the front; the front itself may take 2 cells",
+                source: wanted!("noise behind the front; the front itself may take 2 cells"),
                 ..claims
             };
             let quantities = [

@@ -142,7 +142,7 @@ impl Case for SpinningBlock {
     }
 
     fn claims(&self) -> Vec<Claim> {
-        let must = Claims::new(ID, Kind::Verification, Weight::Must, "issue; invariance");
+        let must = Claims::new(ID, Kind::Verification, Weight::Must, wanted!("invariance"));
         let mut out = Vec::new();
         for variant in VARIANTS {
             let name = named(variant, "plain");
