@@ -177,6 +177,11 @@ pub trait Case: Sync {
     /// The norms that the report tabulates, with their titles.
     fn tabulated(&self) -> &'static [(&'static str, &'static str)];
 
+    /// Decimals of a norm that is measured too coarsely for four digits.
+    fn decimals(&self, _norm: &str) -> Option<usize> {
+        None
+    }
+
     /// Which of what is tabulated are errors, whose orders the report fits.
     fn errors(&self) -> &'static [&'static str] {
         &[]

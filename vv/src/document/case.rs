@@ -100,7 +100,10 @@ fn norms_table(case: &dyn Case, runs: &[&RunRecord]) -> Table {
         let failed = matches!(r.outcome, Outcome::Failed { .. });
         for (k, (name, _)) in case.tabulated().iter().enumerate() {
             row.push(match (r.norms.get(*name), &r.outcome) {
-                (Some(&value), _) if !value.is_nan() => Cell::number(value, 4),
+                (Some(&value), _) if !value.is_nan() => case.decimals(name).map_or_else(
+                    || Cell::number(value, 4),
+                    |decimals| Cell::fixed(value, decimals),
+                ),
                 (None, Outcome::Failed { kind, .. }) if k == 0 => format!("failed: {kind}").into(),
                 _ if failed => "".into(),
                 _ => "–".into(),

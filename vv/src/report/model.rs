@@ -234,6 +234,14 @@ impl Cell {
         Self { text: sig(value, digits), value: Some(value), status: None }
     }
 
+    /// A number shown to so many decimals, where it has no more; a zero has no sign.
+    pub fn fixed(value: f64, decimals: usize) -> Self {
+        let text = format!("{value:.decimals$}");
+        let value = text.parse::<f64>().ok().map(|value| value + 0.0);
+        let text = value.map_or(text, |value| format!("{value:.decimals$}").replace('-', "−"));
+        Self { text, value, status: None }
+    }
+
     /// A whole number, shown in full.
     pub fn count(value: u64) -> Self {
         Self { text: value.to_string(), value: Some(value as f64), status: None }
