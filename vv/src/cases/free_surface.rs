@@ -214,6 +214,10 @@ impl Case for FreeSurface {
         figures
     }
 
+    fn units(&self) -> &'static [(&'static str, &'static str)] {
+        &[("time", ""), ("velocity", ""), ("exact", "")]
+    }
+
     fn draws(&self, _: &RunKey) -> bool {
         true
     }

@@ -181,6 +181,10 @@ impl Case for Kolsky {
         Ok(findings)
     }
 
+    fn units(&self) -> &'static [(&'static str, &'static str)] {
+        &[("time_ms", ""), ("velocity", "in/s"), ("velocity_exact", "in/s")]
+    }
+
     fn draws(&self, key: &RunKey) -> bool {
         DRAWN.contains(&key.n) && key.variant != LONG
     }

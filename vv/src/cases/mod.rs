@@ -163,6 +163,12 @@ pub trait Case: Sync {
         Err(RunError::NotThere { case: self.id().into(), what: "the Godunov code".into() })
     }
 
+    /// Every column of the fields and histories of a run whose scene has units, with its own; empty for ratios
+    /// and counts, and where the name says it.
+    fn units(&self) -> &'static [(&'static str, &'static str)] {
+        &[]
+    }
+
     /// Whether a figure shows the fields or histories of a run: records of others leave them out.
     fn draws(&self, key: &RunKey) -> bool {
         key.n == self.default_size() && self.variants().contains(&key.variant.as_str())

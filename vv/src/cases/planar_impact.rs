@@ -255,6 +255,10 @@ impl Case for PlanarImpact {
         Ok(findings)
     }
 
+    fn units(&self) -> &'static [(&'static str, &'static str)] {
+        &[("place", "cm"), ("pressure", "Mbar"), ("density", "g/cm³")]
+    }
+
     fn runs(&self, level: Level) -> Vec<RunKey> {
         let default = |n| default_run(ID, n);
         let mut keys: Vec<RunKey> = VARIANTS.iter().map(|v| default(SIZES[1]).variant(v)).collect();

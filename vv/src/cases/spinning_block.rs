@@ -128,6 +128,10 @@ impl Case for SpinningBlock {
         Ok(findings)
     }
 
+    fn units(&self) -> &'static [(&'static str, &'static str)] {
+        &[("turn", ""), ("energy", ""), ("hourglass", ""), ("checkerboard", ""), ("stored", "")]
+    }
+
     fn draws(&self, _: &RunKey) -> bool {
         true
     }

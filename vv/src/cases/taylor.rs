@@ -298,6 +298,21 @@ impl Case for Taylor {
         Ok(findings)
     }
 
+    fn units(&self) -> &'static [(&'static str, &'static str)] {
+        &[
+            ("time", "µs"),
+            ("length", "mm"),
+            ("foot", "mm"),
+            ("foot_left", "mm"),
+            ("reach", "mm"),
+            ("kinetic", ""),
+            ("momentum", "g·cm/µs"),
+            ("dead", ""),
+            ("height", "mm"),
+            ("radius", "mm"),
+        ]
+    }
+
     fn draws(&self, _: &RunKey) -> bool {
         true
     }

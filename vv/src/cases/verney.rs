@@ -241,6 +241,19 @@ impl Case for Verney {
         Ok(findings)
     }
 
+    fn units(&self) -> &'static [(&'static str, &'static str)] {
+        &[
+            ("time", "µs"),
+            ("exact", "cm"),
+            ("inner", "cm"),
+            ("outer", "cm"),
+            ("roundness", ""),
+            ("kinetic", ""),
+            ("plastic", ""),
+            ("elastic", ""),
+        ]
+    }
+
     fn draws(&self, key: &RunKey) -> bool {
         key.variant.is_empty()
     }
