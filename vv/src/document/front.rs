@@ -3,7 +3,7 @@
 use crate::cases::Case;
 use crate::claims::{Kind, Status as Judged, Verdict, Weight};
 use crate::record::{Outcome, Records, RunRecord, Scheme};
-use crate::report::{Block, Cell, Column, Section, Status, Summary, Table, sig};
+use crate::report::{Block, Cell, Column, Section, Status, Summary, Table, Tally, sig};
 
 /// The verdict in a sentence, with counts. Cases that were not run are named, and not counted.
 pub(super) fn verdict(verdicts: &[Verdict], not_run: &[&dyn Case]) -> Summary {
@@ -38,6 +38,19 @@ pub(super) fn verdict(verdicts: &[Verdict], not_run: &[&dyn Case]) -> Summary {
         counts.push((Status::Stale, stale));
     }
     Summary { text, counts }
+}
+
+/// How the required claims among some verdicts stand.
+pub(super) fn tally<'a>(verdicts: impl IntoIterator<Item = &'a Verdict>) -> Tally {
+    let required = verdicts.into_iter().filter(|v| v.claim.weight == Weight::Must);
+    required.fold(Tally::default(), |mut tally, verdict| {
+        match verdict.status {
+            Judged::Pass => tally.held += 1,
+            Judged::Fail => tally.failed += 1,
+            Judged::Missing => tally.missing += 1,
+        }
+        tally
+    })
 }
 
 /// What failed, how many claims of each kind there are, and what was not run.
