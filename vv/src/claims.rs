@@ -328,6 +328,12 @@ impl Quantity {
         }
     }
 
+    /// Whether it is the error of a balance: of energy, momentum or angular momentum over a run.
+    #[must_use]
+    pub fn is_balance(&self) -> bool {
+        matches!(self, Self::EnergyDrift(_) | Self::MomentumDrift(_) | Self::AngularDrift(_))
+    }
+
     fn evaluate(&self, runs: &[&RunRecord]) -> (Option<f64>, Option<OrderFit>) {
         let first = runs[0];
         let norm = |run: &RunRecord, name: &str| run.norms.get(name).copied();

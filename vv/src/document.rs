@@ -6,12 +6,20 @@ mod case;
 mod deviations;
 mod front;
 
+use whipple_solver::method::Preset;
+
 use crate::cases::{self, Case};
 use crate::claims::Verdict;
 use crate::plots::Figure;
 use crate::record::Records;
 use crate::report::{Report, Section};
 use crate::suite::has_run;
+
+/// Groups of the contents.
+const LINE: &str = "One dimension";
+const SPACE: &str = "Three dimensions";
+const RUNS: &str = "Conservation and cost";
+const ORIGIN: &str = "Method and origin";
 
 /// Composes the report and its figures.
 #[must_use]
@@ -22,14 +30,15 @@ pub fn compose(records: &Records, verdicts: &[Verdict]) -> (Report, Vec<Figure>)
     let mut sections = vec![front::reading(), front::summary(verdicts, &not_run)];
     for case in ran {
         let (section, drawn) = case::section(case, records, verdicts);
-        sections.push(section);
+        let group = if in_space(case) { SPACE } else { LINE };
+        sections.push(section.within(group));
         figures.extend(drawn);
     }
     sections.extend([
-        front::conservation(records),
-        front::cost(records),
-        deviations::section(),
-        front::provenance(records),
+        front::conservation(records).within(RUNS),
+        front::cost(records).within(RUNS),
+        deviations::section().within(ORIGIN),
+        front::provenance(records).within(ORIGIN),
     ]);
     let report = Report {
         title: "Whipple: verification report".into(),
@@ -41,6 +50,11 @@ pub fn compose(records: &Records, verdicts: &[Verdict]) -> (Report, Vec<Figure>)
         sections: sections.into_iter().filter(has_content).collect(),
     };
     (report, figures)
+}
+
+/// Whether a case is one of three dimensions.
+fn in_space(case: &dyn Case) -> bool {
+    case.scene(Preset::Default, "", case.default_size()).space().is_some()
 }
 
 fn has_content(section: &Section) -> bool {

@@ -164,6 +164,10 @@ impl Case for Beam {
         Ok(findings)
     }
 
+    fn units(&self) -> &'static [(&'static str, &'static str)] {
+        &[("time", "µs"), ("deflection", "cm"), ("hourglass", ""), ("held", ""), ("heat", "")]
+    }
+
     fn draws(&self, _: &RunKey) -> bool {
         true
     }

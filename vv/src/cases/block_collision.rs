@@ -134,6 +134,10 @@ impl Case for BlockCollision {
         Ok(findings)
     }
 
+    fn units(&self) -> &'static [(&'static str, &'static str)] {
+        &[("time", "µs"), ("left", ""), ("right", "")]
+    }
+
     fn runs(&self, level: Level) -> Vec<RunKey> {
         let sizes = if level == Level::Quick { &SIZES[1..2] } else { SIZES };
         let mut keys = both_presets(ID, sizes);

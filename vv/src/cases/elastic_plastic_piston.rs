@@ -228,6 +228,10 @@ impl Case for ElasticPlasticPiston {
         Ok(findings)
     }
 
+    fn units(&self) -> &'static [(&'static str, &'static str)] {
+        &[("place", "cm"), ("velocity", "m/s"), ("exact", "m/s")]
+    }
+
     fn runs(&self, level: Level) -> Vec<RunKey> {
         let mut keys = vec![default_run(ID, SIZES[0]), default_run(ID, SIZES[1])];
         keys.extend(VARIANTS.map(|v| default_run(ID, SIZES[2]).variant(v)));

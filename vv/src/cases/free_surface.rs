@@ -153,7 +153,7 @@ impl Case for FreeSurface {
     fn claims(&self) -> Vec<Claim> {
         let source = "release isentrope; tolerance of the study in three dimensions, 0.97 to 1.03";
         let must = Claims::new(ID, Kind::Verification, Weight::Must, source);
-        let aim = Claims { weight: Weight::Aim, source: "issue", ..must };
+        let aim = Claims { weight: Weight::Aim, source: wanted!(), ..must };
         let mut out = Vec::new();
         for variant in VARIANTS {
             let norm = |name| Quantity::Norm(default_run(ID, SIZES[1]).variant(variant), name);
@@ -212,6 +212,10 @@ impl Case for FreeSurface {
         let caption = "The same for copper at 1 km/s, by the number of cells.";
         figures.extend(figure("free-surface-sizes", caption, sizes));
         figures
+    }
+
+    fn units(&self) -> &'static [(&'static str, &'static str)] {
+        &[("time", ""), ("velocity", ""), ("exact", "")]
     }
 
     fn draws(&self, _: &RunKey) -> bool {

@@ -100,8 +100,8 @@ impl Case for GalileanBoost {
     }
 
     fn claims(&self) -> Vec<Claim> {
-        let issue = "issue: equal to 1e-8, which round-off of positions 300 away allows";
-        let must = Claims::new(ID, Kind::Verification, Weight::Must, issue);
+        let source = wanted!("equal to 1e-8, which round-off of positions 300 away allows");
+        let must = Claims::new(ID, Kind::Verification, Weight::Must, source);
         let key = default_run(ID, SIZE);
         let mut out = vec![must.claim(
             "temperatures in a frame at 1000, largest difference, `default`",

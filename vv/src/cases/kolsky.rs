@@ -181,6 +181,10 @@ impl Case for Kolsky {
         Ok(findings)
     }
 
+    fn units(&self) -> &'static [(&'static str, &'static str)] {
+        &[("time_ms", ""), ("velocity", "in/s"), ("velocity_exact", "in/s")]
+    }
+
     fn draws(&self, key: &RunKey) -> bool {
         DRAWN.contains(&key.n) && key.variant != LONG
     }
@@ -198,16 +202,16 @@ impl Case for Kolsky {
     fn claims(&self) -> Vec<Claim> {
         let default = |variant: &str| default_run(ID, DRAWN[1]).variant(variant);
         let norm = |variant: &str, name| Quantity::Norm(default(variant), name);
-        let issue = Claims::new(ID, Kind::Verification, Weight::Must, "issue; exact solution");
-        let aim = Claims { weight: Weight::Aim, ..issue };
+        let must = Claims::new(ID, Kind::Verification, Weight::Must, wanted!("exact solution"));
+        let aim = Claims { weight: Weight::Aim, ..must };
         let speed = exact(FIXED).map_or(f64::NAN, |load| load.front_velocity());
         let mut out = vec![
-            issue.claim(
+            must.claim(
                 "plateau velocity in in/s, n = 101, `default`",
                 norm(FIXED, "plateau"),
                 Wanted::Near(speed, 0.005),
             ),
-            issue.claim(
+            must.claim(
                 "overshoot, n = 101, `default`",
                 norm(FIXED, "overshoot"),
                 Wanted::AtMost(0.12),
@@ -217,24 +221,24 @@ impl Case for Kolsky {
                 norm(FIXED, "overshoot"),
                 Wanted::AtMost(0.03),
             ),
-            issue.claim(
+            must.claim(
                 "odd-even roughness after 20 transits over the spacing, n = 101, `default`",
                 norm(LONG, "roughness"),
                 Wanted::AtMost(1e-3),
             ),
-            issue.claim(
+            must.claim(
                 "level after the reflection at a free end over the plateau, n = 101, `default`",
                 norm(FREE, "late_level"),
                 Wanted::Near(2.0, 0.01),
             ),
-            issue.claim(
+            must.claim(
                 "arrival before the exact front, in spacings, n = 101, `default`",
                 norm(FIXED, "arrival_spacings"),
                 Wanted::WithinZero(1.0),
             ),
         ];
         let paper = |n| paper_run(ID, n);
-        let verified = Claims { source: "exact solution, which Figures 5 and 6 follow", ..issue };
+        let verified = Claims { source: "exact solution, which Figures 5 and 6 follow", ..must };
         for n in DRAWN {
             out.push(verified.claim(
                 format!("plateau velocity in in/s, n = {n}, `paper`"),
@@ -245,7 +249,7 @@ impl Case for Kolsky {
         let states = Claims {
             source: "the ledger integrates the work on the segments; their strain energy by the \
                      positions, Eq. (25), must be the same but for the integrator's O(dt^2)",
-            ..issue
+            ..must
         };
         for variant in [FIXED, LONG] {
             let length = if variant == LONG { ", 20 transits" } else { "" };

@@ -123,6 +123,24 @@ impl Case for LongRod {
         Ok(findings)
     }
 
+    fn units(&self) -> &'static [(&'static str, &'static str)] {
+        &[
+            ("time", "µs"),
+            ("length", "cm"),
+            ("velocity", "km/s"),
+            ("mass", "g"),
+            ("kinetic", "kJ"),
+            ("internal", "kJ"),
+            ("shear", "kJ"),
+            ("tension", "kJ"),
+            ("residual", "kJ"),
+            ("momentum_x", "g·cm/µs"),
+            ("momentum_y", "g·cm/µs"),
+            ("failed", ""),
+            ("dt", "µs"),
+        ]
+    }
+
     fn draws(&self, _: &RunKey) -> bool {
         true
     }

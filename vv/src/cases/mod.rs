@@ -3,6 +3,17 @@
 //! A case says what is to be simulated, what is measured, and what is claimed of it. It knows
 //! nothing of files, pages or the command line.
 
+/// Source of numbers that are wanted of this solver and stand in no reference: where a reader finds them,
+/// and what there is to say besides.
+macro_rules! wanted {
+    () => {
+        "README, Accuracy wanted"
+    };
+    ($more:literal) => {
+        concat!(wanted!(), "; ", $more)
+    };
+}
+
 mod beam;
 mod block_collision;
 mod einfeldt;
@@ -152,6 +163,12 @@ pub trait Case: Sync {
         Err(RunError::NotThere { case: self.id().into(), what: "the Godunov code".into() })
     }
 
+    /// Every column of the fields and histories of a run whose scene has units, with its own; empty for ratios
+    /// and counts, and where the name says it.
+    fn units(&self) -> &'static [(&'static str, &'static str)] {
+        &[]
+    }
+
     /// Whether a figure shows the fields or histories of a run: records of others leave them out.
     fn draws(&self, key: &RunKey) -> bool {
         key.n == self.default_size() && self.variants().contains(&key.variant.as_str())
@@ -165,6 +182,11 @@ pub trait Case: Sync {
 
     /// The norms that the report tabulates, with their titles.
     fn tabulated(&self) -> &'static [(&'static str, &'static str)];
+
+    /// Decimals of a norm that is measured too coarsely for four digits.
+    fn decimals(&self, _norm: &str) -> Option<usize> {
+        None
+    }
 
     /// Which of what is tabulated are errors, whose orders the report fits.
     fn errors(&self) -> &'static [&'static str] {

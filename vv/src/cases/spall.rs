@@ -183,6 +183,10 @@ impl Case for Spall {
         Ok(findings)
     }
 
+    fn units(&self) -> &'static [(&'static str, &'static str)] {
+        &[("time", "µs"), ("velocity", ""), ("holds", ""), ("failed", "")]
+    }
+
     fn draws(&self, _: &RunKey) -> bool {
         true
     }

@@ -33,8 +33,8 @@ fn setup(_: &str) -> Result<Setup, RunError> {
 }
 
 fn claims() -> Vec<Claim> {
-    let issue = "acceptance number of the 1D study: relative L1 of density at n = 200";
-    let must = Claims::new(ID, Kind::Verification, Weight::Must, issue).in_sample();
+    let source = "acceptance number of the 1D study: relative L1 of density at n = 200";
+    let must = Claims::new(ID, Kind::Verification, Weight::Must, source).in_sample();
     let at = |preset| run_of(ID, preset, 200);
     let default = at(Preset::Default);
     let l1 = |key: RunKey| Quantity::Norm(key, "density_l1");

@@ -298,6 +298,21 @@ impl Case for Taylor {
         Ok(findings)
     }
 
+    fn units(&self) -> &'static [(&'static str, &'static str)] {
+        &[
+            ("time", "µs"),
+            ("length", "mm"),
+            ("foot", "mm"),
+            ("foot_left", "mm"),
+            ("reach", "mm"),
+            ("kinetic", ""),
+            ("momentum", "g·cm/µs"),
+            ("dead", ""),
+            ("height", "mm"),
+            ("radius", "mm"),
+        ]
+    }
+
     fn draws(&self, _: &RunKey) -> bool {
         true
     }
@@ -316,7 +331,7 @@ impl Case for Taylor {
     fn claims(&self) -> Vec<Claim> {
         let mut out = Vec::new();
         let plain = || self.default_key(SIZES[0]);
-        let issue = Claims::new(self.id, Kind::Verification, Weight::Must, "issue");
+        let must = Claims::new(self.id, Kind::Verification, Weight::Must, wanted!());
         if self.id == COPPER {
             let others = [
                 ("12 against 8 cells across", self.default_key(SIZES[1])),
@@ -325,7 +340,7 @@ impl Case for Taylor {
             ];
             // 0.01 of the initial length, over a final length of two thirds of it.
             for (text, key) in others {
-                out.push(issue.claim(
+                out.push(must.claim(
                     format!("final length, {text}: change"),
                     Quantity::Change(key, plain(), "length_ratio"),
                     Wanted::WithinZero(0.015),

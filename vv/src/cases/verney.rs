@@ -241,6 +241,19 @@ impl Case for Verney {
         Ok(findings)
     }
 
+    fn units(&self) -> &'static [(&'static str, &'static str)] {
+        &[
+            ("time", "µs"),
+            ("exact", "cm"),
+            ("inner", "cm"),
+            ("outer", "cm"),
+            ("roundness", ""),
+            ("kinetic", ""),
+            ("plastic", ""),
+            ("elastic", ""),
+        ]
+    }
+
     fn draws(&self, key: &RunKey) -> bool {
         key.variant.is_empty()
     }
@@ -273,7 +286,7 @@ impl Case for Verney {
         &[
             ("rest_error_cm", "error of the inner radius at rest, cm"),
             ("outer_error_cm", "of the outer radius, cm"),
-            ("rest_time_error", "error of the time of rest"),
+            ("rest_time_error", "error of the time of rest, to 0.01"),
             ("half_way_error_cm", "error half way, cm"),
             ("way_error_cm", "largest error on the way, cm"),
             ("roundness", "roundness"),
@@ -281,6 +294,11 @@ impl Case for Verney {
             ("kinetic_share", "kinetic energy left"),
             ("elastic_share", "elastic energy"),
         ]
+    }
+
+    fn decimals(&self, norm: &str) -> Option<usize> {
+        // The time of rest is that of an entry of the history: they are a hundredth of the exact one apart.
+        (norm == "rest_time_error").then_some(2)
     }
 
     fn figures(&self, records: &Records) -> Vec<Figure> {

@@ -128,8 +128,8 @@ pub(crate) fn make_reference() -> Result<String, RunError> {
 }
 
 fn claims() -> Vec<Claim> {
-    let issue = "issue: L1 of density over its range, n = 400, against the fine Godunov run";
-    let must = Claims::new(ID, Kind::Comparison, Weight::Must, issue);
+    let source = wanted!("L1 of density over its range, n = 400, against the fine Godunov run");
+    let must = Claims::new(ID, Kind::Comparison, Weight::Must, source);
     let key = default_run(ID, 400);
     let mut out = vec![must.claim(
         "L1 ρ, n = 400, `default`",

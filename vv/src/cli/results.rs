@@ -284,7 +284,7 @@ pub(super) fn text(bounds: &Bounds, record: &RunRecord) -> String {
 }
 
 /// Writes the record, the frozen scene, the fields and the pictures.
-pub(super) fn write_outputs(out: &Path, done: &Run) -> Result<(), Failure> {
+pub(super) fn write_outputs(out: &Path, case: &dyn Case, done: &Run) -> Result<(), Failure> {
     let record = &done.record;
     if let Some(scene) = &record.scene {
         let toml = toml::to_string_pretty(scene).map_err(Failure::usage)?;
@@ -292,7 +292,7 @@ pub(super) fn write_outputs(out: &Path, done: &Run) -> Result<(), Failure> {
     }
     for (name, series) in [("profile.csv", &record.profile), ("history.csv", &record.history)] {
         if let Some(series) = series {
-            write_atomic(&out.join(name), csv(series)?.as_bytes())?;
+            write_atomic(&out.join(name), csv(case, series)?.as_bytes())?;
         }
     }
     if !done.photos.is_empty() {
@@ -302,10 +302,15 @@ pub(super) fn write_outputs(out: &Path, done: &Run) -> Result<(), Failure> {
     Ok(write_record(&out.join(RECORD), record)?)
 }
 
-fn csv(series: &Series) -> Result<String, Failure> {
+/// Columns under heads with their units, as in the tables of the report.
+fn csv(case: &dyn Case, series: &Series) -> Result<String, Failure> {
+    let head = |name: &String| match case.units().iter().find(|(column, _)| column == name) {
+        Some((_, unit)) if !unit.is_empty() => format!("{name} ({unit})"),
+        _ => name.clone(),
+    };
     let mut writer = csv::Writer::from_writer(Vec::new());
     let failed = |e: csv::Error| Failure::usage(format!("cannot make a CSV table: {e}"));
-    writer.write_record(series.0.keys()).map_err(failed)?;
+    writer.write_record(series.0.keys().map(head)).map_err(failed)?;
     let rows = series.0.values().map(Vec::len).max().unwrap_or(0);
     for k in 0..rows {
         let cell = |column: &Vec<f64>| column.get(k).map_or(String::new(), ToString::to_string);

@@ -61,7 +61,7 @@ pub(super) fn run(args: &RunArgs) -> Result<u8, Failure> {
     };
 
     if let Some(out) = &args.out {
-        write_outputs(out, &done)?;
+        write_outputs(out, case, &done)?;
     }
     print(&if args.json { json(&done.record)? } else { text(&bounds, &done.record) })?;
     match done.failure {

@@ -8,7 +8,7 @@ use crate::record::{Outcome, Records, RunKey, RunRecord, Scheme};
 use crate::report::{Block, Cell, Column, Section, Status, Table, sig};
 use crate::suite::command_of;
 
-use super::front::{claims_table, escaped};
+use super::front::{claims_table, escaped, tally};
 
 /// Section and figures of a case.
 pub(super) fn section(
@@ -49,7 +49,8 @@ pub(super) fn section(
         let caption = picture.caption.clone();
         blocks.push(Block::Picture { id: picture.id.clone(), caption });
     }
-    (Section::new(case.id(), case.title(), blocks), figures)
+    let tally = Some(tally(claims)).filter(|tally| tally.all() > 0);
+    (Section { tally, ..Section::new(case.id(), case.title(), blocks) }, figures)
 }
 
 /// The runs of the case that have no record, with the commands that make them.
@@ -100,7 +101,10 @@ fn norms_table(case: &dyn Case, runs: &[&RunRecord]) -> Table {
         let failed = matches!(r.outcome, Outcome::Failed { .. });
         for (k, (name, _)) in case.tabulated().iter().enumerate() {
             row.push(match (r.norms.get(*name), &r.outcome) {
-                (Some(&value), _) if !value.is_nan() => Cell::number(value, 4),
+                (Some(&value), _) if !value.is_nan() => case.decimals(name).map_or_else(
+                    || Cell::number(value, 4),
+                    |decimals| Cell::fixed(value, decimals),
+                ),
                 (None, Outcome::Failed { kind, .. }) if k == 0 => format!("failed: {kind}").into(),
                 _ if failed => "".into(),
                 _ => "–".into(),

@@ -3,17 +3,26 @@
 use crate::cases::Case;
 use crate::claims::{Kind, Status as Judged, Verdict, Weight};
 use crate::record::{Outcome, Records, RunRecord, Scheme};
-use crate::report::{Block, Cell, Column, Section, Status, Summary, Table, sig};
+use crate::report::{Block, Cell, Column, Section, Status, Summary, Table, Tally, sig};
 
 /// The verdict in a sentence, with counts. Cases that were not run are named, and not counted.
 pub(super) fn verdict(verdicts: &[Verdict], not_run: &[&dyn Case]) -> Summary {
     let count = |weight, status| {
         verdicts.iter().filter(|v| v.claim.weight == weight && v.status == status).count()
     };
-    let passed = count(Weight::Must, Judged::Pass);
-    let failed = count(Weight::Must, Judged::Fail);
-    let missing = count(Weight::Must, Judged::Missing);
-    let mut text = format!("{passed} of {} required claims hold", passed + failed + missing);
+    let required = tally(verdicts);
+    let Tally { held: passed, failed, missing } = required;
+    let mut text = format!("{passed} of {} required claims hold", required.all());
+    let balances = tally(verdicts.iter().filter(|v| v.claim.quantity.is_balance()));
+    if balances.all() > 0 {
+        let (held, all) = (balances.held, balances.all());
+        text += &format!(
+            ": {held} of {all} of conservation (a run keeps energy and momentum to round-off), {} of {} of \
+             everything else",
+            passed - held,
+            required.all() - all
+        );
+    }
     if missing > 0 {
         text += &format!("; {missing} have no record");
     }
@@ -38,6 +47,19 @@ pub(super) fn verdict(verdicts: &[Verdict], not_run: &[&dyn Case]) -> Summary {
         counts.push((Status::Stale, stale));
     }
     Summary { text, counts }
+}
+
+/// How the required claims among some verdicts stand.
+pub(super) fn tally<'a>(verdicts: impl IntoIterator<Item = &'a Verdict>) -> Tally {
+    let required = verdicts.into_iter().filter(|v| v.claim.weight == Weight::Must);
+    required.fold(Tally::default(), |mut tally, verdict| {
+        match verdict.status {
+            Judged::Pass => tally.held += 1,
+            Judged::Fail => tally.failed += 1,
+            Judged::Missing => tally.missing += 1,
+        }
+        tally
+    })
 }
 
 /// What failed, how many claims of each kind there are, and what was not run.
@@ -65,7 +87,8 @@ pub(super) fn summary(verdicts: &[Verdict], not_run: &[&dyn Case]) -> Section {
     Section::new("summary", "Summary", blocks)
 }
 
-/// How many claims of each kind there are, by weight and judgement.
+/// How many claims of each kind there are, by weight and judgement; balances, which most cases claim of
+/// their runs, apart from the rest.
 fn kinds_table(verdicts: &[Verdict]) -> Table {
     let kinds = [
         Kind::Verification,
@@ -75,16 +98,21 @@ fn kinds_table(verdicts: &[Verdict]) -> Table {
         Kind::Cost,
         Kind::Stability,
     ];
+    let balance = |v: &Verdict| v.claim.quantity.is_balance();
+    let mut groups: Vec<(String, Vec<&Verdict>)> =
+        vec![("conservation".into(), verdicts.iter().filter(|v| balance(v)).collect())];
+    groups.extend(kinds.map(|kind| {
+        let own = |v: &&Verdict| v.claim.kind == kind && !balance(v);
+        (kind.name().into(), verdicts.iter().filter(own).collect())
+    }));
     let mut rows = Vec::new();
-    for kind in kinds {
+    for (name, verdicts) in groups {
         let of = |weight, status| {
-            let matches = |v: &&Verdict| {
-                v.claim.kind == kind && v.claim.weight == weight && v.status == status
-            };
+            let matches = |v: &&&Verdict| v.claim.weight == weight && v.status == status;
             Cell::count(verdicts.iter().filter(matches).count() as u64)
         };
         rows.push(vec![
-            kind.name().into(),
+            name.into(),
             of(Weight::Must, Judged::Pass),
             of(Weight::Must, Judged::Fail),
             of(Weight::Must, Judged::Missing),
@@ -101,8 +129,9 @@ fn kinds_table(verdicts: &[Verdict]) -> Table {
         number("goals: reached"),
         number("missed"),
     ];
-    let caption = "Claims by kind. Validation needs an experiment: the long rod and the Taylor \
-                   impacts have one.";
+    let caption = "Claims by kind. Conservation is the part of verification that says of a run that energy and \
+                   momentum stay to round-off, and nothing of its accuracy. Validation needs an experiment: the \
+                   long rod and the Taylor impacts have one.";
     Table { id: "kinds".into(), caption: caption.into(), columns, rows }
 }
 

@@ -34,6 +34,10 @@ impl Page<'_> {
         inline::display(tex)
     }
 
+    fn has_tallies(&self) -> bool {
+        self.chapters.iter().any(|chapter| chapter.section.tally.is_some())
+    }
+
     fn figure(&self, id: &str) -> String {
         match self.figures.get(id) {
             Some(Drawing::Chart(svg)) => themed(svg),

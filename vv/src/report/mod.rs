@@ -15,7 +15,7 @@ mod write;
 pub use html::html;
 pub use markdown::markdown;
 pub use model::{
-    Align, Block, Cell, Column, Drawing, Pictures, Report, Section, Status, Summary, Table,
+    Align, Block, Cell, Column, Drawing, Pictures, Report, Section, Status, Summary, Table, Tally,
 };
 pub use number::sig;
 pub use sheet::csv;

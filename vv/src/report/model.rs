@@ -35,6 +35,10 @@ pub struct Section {
     pub id: String,
     /// Heading.
     pub title: String,
+    /// What the contents list it under, with its neighbours of the same group; may be empty.
+    pub group: String,
+    /// How its required claims stand, if it has any: beside its title in the contents.
+    pub tally: Option<Tally>,
     /// Content before the first subsection.
     pub blocks: Vec<Block>,
     /// Parts.
@@ -44,7 +48,41 @@ pub struct Section {
 impl Section {
     /// A section without parts.
     pub fn new(id: impl Into<String>, title: impl Into<String>, blocks: Vec<Block>) -> Self {
-        Self { id: id.into(), title: title.into(), blocks, subsections: Vec::new() }
+        Self { id: id.into(), title: title.into(), blocks, ..Self::default() }
+    }
+
+    /// The section in a group of the contents.
+    #[must_use]
+    pub fn within(mut self, group: impl Into<String>) -> Self {
+        self.group = group.into();
+        self
+    }
+}
+
+/// How the required claims of a section stand.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Tally {
+    /// They hold.
+    pub held: usize,
+    /// They do not.
+    pub failed: usize,
+    /// They have no record.
+    pub missing: usize,
+}
+
+impl Tally {
+    /// All of them.
+    pub fn all(self) -> usize {
+        self.held + self.failed + self.missing
+    }
+
+    /// The verdict on the whole: the worst of its parts.
+    pub fn status(self) -> Status {
+        match self {
+            Self { failed: 1.., .. } => Status::Fail,
+            Self { missing: 1.., .. } => Status::Warn,
+            _ => Status::Pass,
+        }
     }
 }
 
@@ -232,6 +270,14 @@ impl Cell {
     /// A number, shown to `digits` significant digits.
     pub fn number(value: f64, digits: usize) -> Self {
         Self { text: sig(value, digits), value: Some(value), status: None }
+    }
+
+    /// A number shown to so many decimals, where it has no more; a zero has no sign.
+    pub fn fixed(value: f64, decimals: usize) -> Self {
+        let text = format!("{value:.decimals$}");
+        let value = text.parse::<f64>().ok().map(|value| value + 0.0);
+        let text = value.map_or(text, |value| format!("{value:.decimals$}").replace('-', "−"));
+        Self { text, value, status: None }
     }
 
     /// A whole number, shown in full.

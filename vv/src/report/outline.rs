@@ -10,6 +10,8 @@ pub(super) struct Chapter<'a> {
     pub(super) number: String,
     /// 0 for chapters, 1 for their parts, and so on.
     pub(super) depth: usize,
+    /// Heading of the group that begins with it in the contents.
+    pub(super) group: Option<&'a str>,
     /// The section itself.
     pub(super) section: &'a Section,
     /// Its blocks, figures and tables with their running number.
@@ -44,7 +46,9 @@ fn walk<'a>(
         };
         let blocks = section.blocks.iter().map(&mut count).collect();
         let inner = format!("{number}.");
-        chapters.push(Chapter { number, depth, section, blocks });
+        let before = i.checked_sub(1).map_or("", |i| sections[i].group.as_str());
+        let group = Some(section.group.as_str()).filter(|own| !own.is_empty() && *own != before);
+        chapters.push(Chapter { number, depth, group, section, blocks });
         walk(&section.subsections, &inner, depth + 1, counts, chapters);
     }
 }

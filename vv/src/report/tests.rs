@@ -102,6 +102,37 @@ fn markdown_is_github_flavoured() {
     "##);
 }
 
+/// The contents group neighbours under one heading and say how the required claims of a section stand.
+#[test]
+fn contents_have_groups_and_verdicts() {
+    let plain = html(&report(), &figures(), Pictures::Beside).unwrap();
+    assert!(!plain.contains("class=\"group\"") && !plain.contains("nav-note"));
+    let mut report = report();
+    report.sections[0].tally = Some(Tally { held: 2, failed: 1, missing: 0 });
+    report.sections.iter_mut().for_each(|section| section.group = "Line".into());
+    report.sections.push(Section::new("rod", "Rod", Vec::new()).within("Space"));
+    let page = html(&report, &figures(), Pictures::Beside).unwrap();
+    let (contents, _) = page.split_once("</nav>").unwrap();
+    let groups = |name: &str| contents.matches(&format!("<li class=\"group\">{name}</li>")).count();
+    assert_eq!((groups("Line"), groups("Space")), (1, 1));
+    assert_eq!(contents.matches("class=\"tally").count(), 1);
+    assert!(contents.contains("class=\"tally fail\"") && contents.contains("2 of 3"));
+    let status = |failed, missing| Tally { held: 1, failed, missing }.status();
+    assert_eq!(
+        [status(0, 0), status(0, 1), status(1, 1)],
+        [Status::Pass, Status::Warn, Status::Fail]
+    );
+}
+
+#[test]
+fn numbers_of_few_decimals_show_no_more() {
+    let text = |value| Cell::fixed(value, 2).text;
+    assert_eq!(text(0.089_999_999_999_999_86), "0.09");
+    assert_eq!(text(-0.02), "−0.02");
+    assert_eq!(text(-1e-17), "0.00");
+    assert_eq!(Cell::fixed(0.089_999_999_999_999_86, 2).value, Some(0.09));
+}
+
 #[test]
 fn csv_keeps_whole_numbers_and_verdicts() {
     insta::assert_snapshot!(csv(&table()), @r#"

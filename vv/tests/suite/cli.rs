@@ -1,8 +1,10 @@
 //! The program as a user meets it: output, messages, exit codes, files.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::process::{Command, Stdio};
 
 use serde_json::Value;
+use whipple_vv::record::Records;
 
 use crate::common::{Said, said, whipple};
 
@@ -311,6 +313,37 @@ fn results_are_written() {
     assert_eq!(fields.lines().count(), 21);
     let entries = std::fs::read_dir(folder.path().join("deep/out")).expect("the folder").count();
     assert_eq!(entries, 3, "no temporary file is left");
+}
+
+/// Heads of columns name units where the scene has them.
+#[test]
+fn columns_have_units() {
+    let folder = folder();
+    assert_eq!(said(folder.path(), &["run", "kolsky", "--n", "21", "--out", "out"]).code, Some(0));
+    let text = std::fs::read_to_string(folder.path().join("out/history.csv")).expect("a history");
+    assert_eq!(text.lines().next(), Some("time_ms,velocity (in/s),velocity_exact (in/s)"));
+
+    let records = concat!(env!("CARGO_MANIFEST_DIR"), "/../reports/records");
+    let records = Records::read(records.as_ref()).expect("the records of the report");
+    let mut found: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
+    for record in records.iter() {
+        let scene = record.scene.as_ref();
+        if scene.is_none_or(|scene| scene.units() == whipple_solver::units::Units::None) {
+            continue;
+        }
+        let columns = [&record.profile, &record.history].into_iter().flatten();
+        let columns = columns.flat_map(|series| series.0.keys().map(String::as_str));
+        found.entry(&record.key.case).or_default().extend(columns);
+    }
+    assert!(found.len() > 10, "{found:?}");
+    for (id, columns) in found {
+        let units = crate::common::case(id).units();
+        assert_eq!(
+            units.iter().map(|(column, _)| *column).collect::<BTreeSet<_>>(),
+            columns,
+            "{id}"
+        );
+    }
 }
 
 /// A folder is for one run: that made again replaces its own, another is refused before it starts.

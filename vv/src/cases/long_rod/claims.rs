@@ -33,7 +33,7 @@ pub(super) fn all() -> Vec<Claim> {
         ID,
         Kind::Validation,
         Weight::Must,
-        "experiment as the paper quotes it; issue; no constant fitted to it",
+        wanted!("experiment as the paper quotes it; no constant fitted to it"),
     );
     let table = Claims::new(ID, Kind::Replication, Weight::Aim, "paper, Table 5");
     let mut out = Vec::new();
@@ -55,22 +55,22 @@ pub(super) fn all() -> Vec<Claim> {
             ));
         }
     }
-    let issue = Claims::new(ID, Kind::Verification, Weight::Must, "issue");
+    let must = Claims::new(ID, Kind::Verification, Weight::Must, wanted!());
     for key in [Preset::Default, Preset::Paper].map(|preset| key(preset, SIZES[0])) {
         let scheme = key.scheme.label();
         out.extend(conservation_in_space(ID, &key));
-        out.push(issue.claim(
+        out.push(must.claim(
             format!("residual of the elements over the initial kinetic energy, `{scheme}`"),
             Quantity::Residual(key.clone()),
             Wanted::WithinZero(1e-3),
         ));
-        out.push(issue.claim(
+        out.push(must.claim(
             format!("mass as meshed over that of the shapes, error, `{scheme}`"),
             Quantity::GeometryMass(key),
             Wanted::AtMost(1e-3),
         ));
     }
-    let area = Claims { source: "issue; gap G25: the size of the plate is inferred", ..issue };
+    let area = Claims { source: wanted!("gap G25: the size of the plate is inferred"), ..must };
     for known in &KNOWN {
         let [wide, plain] = [WIDE, ""].map(|variant| varied_key(Preset::Default, variant));
         out.push(area.claim(
@@ -79,7 +79,7 @@ pub(super) fn all() -> Vec<Claim> {
             Wanted::WithinZero(known.edge),
         ));
     }
-    let step = Claims { weight: Weight::Aim, source: "as wanted of twice the plate", ..issue };
+    let step = Claims { weight: Weight::Aim, source: "as wanted of twice the plate", ..must };
     for variant in STEPS {
         for known in &KNOWN {
             let [short, plain] = [variant, ""].map(|v| varied_key(Preset::Default, v));

@@ -21,9 +21,9 @@ pub(super) struct Known {
     pub(super) uncertainty: f64,
     /// Table 5, coarse to fine.
     pub(super) table_5: [f64; 3],
-    /// Distance from the experiment that is wanted of `default` (issue), and from Table 5 of `paper`.
+    /// Distance from the experiment that is wanted of `default`, and from Table 5 of `paper`.
     pub(super) share: f64,
-    /// Largest change with twice the plate that is wanted (issue).
+    /// Largest change with twice the plate that is wanted.
     pub(super) edge: f64,
 }
 

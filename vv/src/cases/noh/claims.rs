@@ -26,7 +26,7 @@ pub(super) fn all() -> Vec<Claim> {
     for n in [100, 800] {
         out.extend(conservation(ID, &default(n)));
     }
-    let cost = Claims::new(ID, Kind::Cost, Weight::Must, "issue: one core, CPU time of stepping");
+    let cost = Claims::new(ID, Kind::Cost, Weight::Must, wanted!("one core, CPU time of stepping"));
     out.push(cost.claim(
         "particle-steps per CPU second, n = 800, `default`",
         Quantity::Speed(default(800)),
@@ -70,9 +70,9 @@ fn table_2() -> Vec<Claim> {
 
 /// What the default preset reaches.
 fn accuracy() -> Vec<Claim> {
-    let source = "issue: the prototype reached 0.19, 0.102, 4.7 % and 0.011";
+    let source = wanted!("the prototype reached 0.19, 0.102, 4.7 % and 0.011");
     let must = Claims::new(ID, Kind::Verification, Weight::Must, source).in_sample();
-    let aim = Claims { weight: Weight::Aim, source: "issue: goal beyond the prototype", ..must };
+    let aim = Claims { weight: Weight::Aim, source: wanted!("goal beyond the prototype"), ..must };
     let mut out = Vec::new();
     for n in [100, 400] {
         let key = default_run(ID, n);

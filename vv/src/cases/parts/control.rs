@@ -39,11 +39,11 @@ pub(in crate::cases) fn claims(
     plain: &RunKey,
     answers: &[(&'static str, &str)],
 ) -> Vec<Claim> {
-    let source = "issue: the answer changes less than 0.5 %";
-    let issue = Claims::new(id, Kind::Verification, Weight::Must, source);
+    let source = wanted!("the answer changes less than 0.5 %");
+    let must = Claims::new(id, Kind::Verification, Weight::Must, source);
     let of = |(name, text): (&'static str, &str)| {
         runs(plain).map(|key| {
-            issue.claim(
+            must.claim(
                 format!("{}: change of the {text}, n = {}", key.variant, plain.n),
                 Quantity::Change(key, plain.clone(), name),
                 Wanted::WithinZero(CHANGE),
