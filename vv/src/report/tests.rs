@@ -106,7 +106,7 @@ fn markdown_is_github_flavoured() {
 #[test]
 fn contents_have_groups_and_verdicts() {
     let plain = html(&report(), &figures(), Pictures::Beside).unwrap();
-    assert!(!plain.contains("class=\"group\"") && !plain.contains("nav-note"));
+    assert!(!plain.contains("class=\"group\"") && !plain.contains("class=\"nav-note\""));
     let mut report = report();
     report.sections[0].tally = Some(Tally { held: 2, failed: 1, missing: 0 });
     report.sections.iter_mut().for_each(|section| section.group = "Line".into());
