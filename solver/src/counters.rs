@@ -25,4 +25,7 @@ pub struct Counters {
     /// Particles, summed over the steps, that the least volume of a cell held from getting denser.
     #[serde(default)]
     pub packed: u64,
+    /// Contacts, summed over the steps, whose viscosity would have thrown particles back and was lessened.
+    #[serde(default)]
+    pub lessened: u64,
 }

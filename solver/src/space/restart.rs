@@ -18,6 +18,12 @@ use super::simulation::Simulation;
 use super::surfaces;
 use super::votes::{VOTERS, Voter};
 
+/// Among the counts: the first of the particles that decide the next step, who decided the last one, and the first
+/// of those of how often.
+const FIRST: usize = 10;
+const LAST: usize = 11;
+const DECIDED: usize = 12;
+
 /// A named array.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Section {
@@ -263,10 +269,14 @@ impl Simulation {
                     }
                 }
                 Values::U64(counts) => {
-                    let first = counts.last().copied().unwrap_or_default();
+                    let [first, last] = [FIRST, LAST].map(|at| counts.get(at).copied());
+                    let (first, last) = (first.unwrap_or_default(), last.unwrap_or_default());
                     let all = self.derived.rho.len() as u64;
                     if first.saturating_add(LANES as u64) > all {
                         return bad(first, "the number of a particle, before seven others");
+                    }
+                    if last > VOTERS as u64 {
+                        return bad(last, "the number of a voter, or of none");
                     }
                 }
                 Values::F64(_) => {}
@@ -400,10 +410,10 @@ impl Simulation {
     }
 
     /// Counters, the first of the particles that decide the next step, and who decided the last one and all so far.
-    fn counts(&self) -> [u64; 11 + VOTERS] {
+    fn counts(&self) -> [u64; DECIDED + VOTERS] {
         let c = &self.counters;
-        let mut counts = [0; 11 + VOTERS];
-        counts[..11].copy_from_slice(&[
+        let mut counts = [0; DECIDED + VOTERS];
+        counts[..DECIDED].copy_from_slice(&[
             c.steps,
             c.particle_steps,
             c.stages,
@@ -413,15 +423,16 @@ impl Simulation {
             c.kernel_evaluations,
             c.floored,
             c.packed,
+            c.lessened,
             self.allowed.first as u64,
             self.votes.last.map_or(VOTERS as u64, |voter| voter as u64),
         ]);
-        counts[11..].copy_from_slice(&self.votes.decided);
+        counts[DECIDED..].copy_from_slice(&self.votes.decided);
         counts
     }
 
     fn set_counts(&mut self, counts: &[u64]) {
-        let Ok(c) = <[u64; 11 + VOTERS]>::try_from(counts) else { return };
+        let Ok(c) = <[u64; DECIDED + VOTERS]>::try_from(counts) else { return };
         self.counters = crate::counters::Counters {
             steps: c[0],
             particle_steps: c[1],
@@ -432,9 +443,10 @@ impl Simulation {
             kernel_evaluations: c[6],
             floored: c[7],
             packed: c[8],
+            lessened: c[9],
         };
-        self.allowed.first = c[9] as usize;
-        self.votes.last = Voter::ALL.get(c[10] as usize).copied();
-        self.votes.decided.copy_from_slice(&c[11..]);
+        self.allowed.first = c[FIRST] as usize;
+        self.votes.last = Voter::ALL.get(c[LAST] as usize).copied();
+        self.votes.decided.copy_from_slice(&c[DECIDED..]);
     }
 }

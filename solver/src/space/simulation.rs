@@ -8,7 +8,7 @@ use super::kernel::Kernel;
 use super::lanes::LANES;
 use super::lattice::cross;
 use super::ledger::Holdings;
-use super::mesh::{Group, Mesh};
+use super::mesh::{Body, Group, Mesh};
 use super::method::Method;
 use super::pass::{COLOURS, Load, Motion, Pass, over_elements};
 use super::phase::Phase;
@@ -85,16 +85,22 @@ pub struct Simulation {
     pub(super) volumes: bool,
 }
 
-/// Longest step in which two bodies come no nearer than by the contact length of the smaller particles: those
-/// farther apart than they see each other do not pass each other then.
-fn leap(mesh: &Mesh) -> f64 {
+/// Longest step in which no particles of two bodies, at the speeds of the start, come nearer by more than half of the
+/// shorter edge of their cells: those farther apart than they see each other do not pass each other then.
+fn leap(mesh: &Mesh, state: &State) -> f64 {
     let mut longest = f64::INFINITY;
+    let fastest = |body: &Body| {
+        let own = body.nodes.clone().chain(body.centroids.clone());
+        let squares = own.map(|i| state.vx[i].powi(2) + state.vy[i].powi(2) + state.vz[i].powi(2));
+        squares.fold(0.0, f64::max).sqrt()
+    };
     for (k, one) in mesh.bodies.iter().enumerate() {
         for other in &mesh.bodies[..k] {
             let apart: [f64; 3] = std::array::from_fn(|d| one.velocity[d] - other.velocity[d]);
-            let speed = apart.iter().map(|v| v * v).sum::<f64>().sqrt();
+            let apart = apart.iter().map(|v| v * v).sum::<f64>().sqrt();
+            let speed = apart + fastest(one) + fastest(other);
             if speed > 0.0 {
-                longest = longest.min(one.length.min(other.length) / speed);
+                longest = longest.min(0.5 * one.edge().min(other.edge()) / speed);
             }
         }
     }
@@ -160,7 +166,7 @@ impl Simulation {
             first_dt: 0.0,
             free_dt: 0.0,
             smallest_step: SMALLEST_STEP * scene.stop_time,
-            leap: leap(&mesh),
+            leap: leap(&mesh, &state),
             element_work: 0.0,
             element_heat: 0.0,
             spring_work: 0.0,
@@ -311,10 +317,12 @@ impl Simulation {
         self.demand = even.and(odd);
         self.element_heat += self.demand.heat;
         let columns = (&self.state, &self.derived);
-        // What the longest next kick bears; before the first step nothing is known of it.
-        let damping = self.method.cfl / (GROWTH * self.dt.max(self.free_dt));
+        // Of the longest next kick. Before the first step nothing is known of it, and where no volumes carry the
+        // pressure the viscosity of contacts is that of the method: there they vote.
+        let longest = 0.5 * (self.dt + GROWTH * self.free_dt);
+        let damping = if self.volumes && longest > 0.0 { 1.0 / longest } else { f64::INFINITY };
         enter(Phase::Contacts);
-        let contacts = self.contacts.push(
+        let (contacts, lessened) = self.contacts.push(
             &self.mesh,
             columns,
             (&self.method, self.dt, damping),
@@ -328,6 +336,7 @@ impl Simulation {
             (&mut self.sums, &mut self.touched, &mut self.active),
         );
         self.pushed = [contacts, rate];
+        self.counters.lessened += lessened;
         self.spring_heat += heat;
     }
 

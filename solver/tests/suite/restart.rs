@@ -7,6 +7,7 @@ use whipple_solver::space::scene::{
     Body, EosData, Failure, Flow, GammaLaw, Hold, Material, Scene, Shape, Side, Strength, Turn,
     Wall,
 };
+use whipple_solver::space::votes::Voter;
 use whipple_solver::units::Units;
 
 fn metal(name: &str, density: f64, c0: f64, shear_modulus: f64) -> Material {
@@ -190,10 +191,29 @@ fn sections_that_do_not_fit_are_refused() {
         });
         assert!(said.starts_with(&format!("section `{name}` holds 255")), "{said}");
     }
-    let said = refusal(&|s| {
-        if let Values::U64(counts) = &mut s[at("run.counts")].values {
-            counts.fill(1 << 40);
-        }
-    });
-    assert!(said.starts_with("section `run.counts` holds"), "{said}");
+    for (which, wanted) in [(10, "the number of a particle"), (11, "the number of a voter")] {
+        let said = refusal(&|s| {
+            if let Values::U64(counts) = &mut s[at("run.counts")].values {
+                counts[which] = 1 << 40;
+            }
+        });
+        assert!(said.starts_with("section `run.counts` holds 1099511627776"), "{said}");
+        assert!(said.contains(wanted), "{said}");
+    }
+}
+
+/// A run that has landed more often than it has particles.
+#[test]
+fn many_landings_are_no_particle() {
+    let mut scene = rod_on_plate(Preset::Default);
+    scene.bodies.truncate(1);
+    let mut simulation = new(&scene);
+    let many = simulation.particles() + 100;
+    for landing in 1..=many {
+        simulation.advance_to(1e-4 * landing as f64).expect("the scene of a test runs");
+    }
+    assert!(simulation.votes().decided[Voter::Landing as usize] > simulation.particles() as u64);
+    let mut other = new(&scene);
+    other.restore(&simulation.sections()).expect("sections of its own");
+    assert_equal(&simulation, &other, "after many landings");
 }

@@ -14,8 +14,9 @@ use crate::space::near::put;
 /// Overlap beyond which the force of a contact rises no more, as a share of the distance of contact.
 const DEEPEST: f64 = 0.8;
 
-/// Rate at which a pair of equals is damped over that of either: both are.
-const DAMPING: f64 = 2.0;
+/// Most of its velocity that all contacts of a particle take in a kick where volumes carry the pressure: no motion is
+/// damped by more than twice that, of which leapfrog bears two.
+const BEARABLE: f64 = 0.9;
 
 /// A pair in contact in this step.
 #[derive(Debug, Clone, Copy)]
@@ -91,17 +92,17 @@ impl Contacts {
         2 * pairs.len() as u64
     }
 
-    /// Forces, conduction over the last step, of length `dt`, and the marks of touched particles. The viscosity of
-    /// all contacts of a particle damps it at the rate `most`, if that is the less: what stops it in a step
-    /// needs to be no more viscous. Returns the inverse of the longest step that the viscosity bears, nothing where
-    /// it was lessened.
+    /// Forces, conduction over the last step, of length `dt`, and the marks of touched particles. Viscosity damps
+    /// a pair at the rate `most` at most, and a particle at most at [`BEARABLE`] of it: what stops a pair in a kick
+    /// needs to be no more viscous. Returns the largest rate at which a particle is damped, where no such rate is
+    /// given, and how often a contact was lessened.
     pub fn push(
         &mut self,
         mesh: &Mesh,
         (state, derived): (&State, &Derived),
         (method, dt, most): (&Method, f64, f64),
         (sums, touched, active): (&mut Sums, &mut [bool], &mut [bool]),
-    ) -> f64 {
+    ) -> (f64, u64) {
         let kernel = self.kernel.as_ref();
         let view = View { mesh, state, derived, method, kernel, volumes: self.volumes };
         let widest = (method.reach() * self.longest).powi(2);
@@ -122,7 +123,7 @@ impl Contacts {
                 }
             }
         });
-        let rate = view.damp(&mut self.blocks, most, &mut sums.rho_rate);
+        let damped = view.damp(&mut self.blocks, most, &mut sums.rho_rate);
         for contact in self.blocks.iter().flatten() {
             let [i, j] = contact.pair.map(|k| k as usize);
             let force = contact.push[0] + contact.push[1] + contact.drag;
@@ -142,7 +143,7 @@ impl Contacts {
             touched[i] = true;
             touched[j] = true;
         }
-        rate
+        damped
     }
 
     /// Density rates (36), pressure work (59) and viscous heat, the first term of Eq. (60) given half to each,
@@ -245,30 +246,37 @@ impl View<'_> {
         Some(active)
     }
 
-    /// Lessens viscous forces so that all those of a particle damp it at the rate `most` or slower. Returns the
-    /// largest rate if none is. `sums` is nothing before and after: rates of density, which are summed there, are not known
+    /// Lessens viscous forces to what stops a pair in a kick, of which `most` is the inverse, and takes [`BEARABLE`] of
+    /// its velocity from a particle. Returns what [`Contacts::push`] does. `sums` is nothing before and after: rates of density, which are summed there, are not known
     /// yet.
-    fn damp(&self, blocks: &mut [Vec<Active>], most: f64, sums: &mut [f64]) -> f64 {
-        let mut rate = 0.0f64;
+    fn damp(&self, blocks: &mut [Vec<Active>], most: f64, sums: &mut [f64]) -> (f64, u64) {
+        let (mut rate, mut lessened) = (0.0f64, 0);
         for contact in damped(blocks) {
             let square: f64 = contact.r.iter().map(|r| r * r).sum();
-            let coefficient = DAMPING * contact.drag * square / self.closing(contact);
-            for i in contact.pair.map(|k| k as usize) {
-                sums[i] += coefficient / self.mesh.mass(i);
+            let coefficient = contact.drag * square / self.closing(contact);
+            let pair = contact.pair.map(|k| k as usize);
+            let own = pair.map(|i| coefficient / self.mesh.mass(i));
+            let part = (most / (own[0] + own[1])).min(1.0);
+            contact.drag *= part;
+            lessened += u64::from(part < 1.0);
+            for (i, own) in pair.into_iter().zip(own) {
+                sums[i] += own * part;
                 rate = rate.max(sums[i]);
             }
         }
-        let lessened = rate > most;
-        if lessened {
+        let bearable = BEARABLE * most;
+        if rate > bearable {
             for contact in damped(blocks) {
                 let [i, j] = contact.pair.map(|k| k as usize);
-                contact.drag *= (most / sums[i].max(sums[j])).min(1.0);
+                let part = (bearable / sums[i].max(sums[j])).min(1.0);
+                contact.drag *= part;
+                lessened += u64::from(part < 1.0);
             }
         }
-        for contact in damped(blocks) {
+        for contact in blocks.iter().flatten() {
             contact.pair.into_iter().for_each(|i| sums[i as usize] = 0.0);
         }
-        if lessened { 0.0 } else { rate }
+        (if most.is_finite() { 0.0 } else { rate }, lessened)
     }
 
     /// Closing rate of `r^2 / 2`.

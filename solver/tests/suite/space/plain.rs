@@ -80,6 +80,8 @@ fn compare(scene: &Scene, steps: usize, [rod, all]: [f64; 2]) -> Plain {
     println!("{} particles, {steps} steps: {worst:?}", partners.len());
     let (failed, dead) = simulation.failed();
     println!("{} contacts, {failed} elements failed, {dead} dead", plain.touches);
+    println!("{} contacts lessened", plain.slackened);
+    assert_eq!(simulation.counters().lessened > 0, plain.slackened > 0);
     plain
 }
 

@@ -246,6 +246,8 @@ pub struct Plain {
     rate: f64,
     /// Contacts of all steps so far, and deaths.
     pub touches: usize,
+    /// Contacts whose viscosity was lessened.
+    pub slackened: usize,
     pub deaths: usize,
 }
 
@@ -328,6 +330,7 @@ impl Plain {
             allowed: [f64::INFINITY; 2],
             rate: 0.0,
             touches: 0,
+            slackened: 0,
             deaths: 0,
         };
         for body in &scene.bodies {
@@ -786,26 +789,52 @@ impl Plain {
         for (k, i) in pair.into_iter().enumerate() {
             let p = &mut self.particles[i];
             p.touched = true;
-            p.damped += 2.0 * nu / p.mass;
+            p.damped += nu / p.mass;
             p.force = if k == 0 { add(p.force, force) } else { sub(p.force, force) };
         }
         self.contacts.push(Contact { pair, r, row, push, drag });
     }
 
-    /// Takes back what contacts damp particles with beyond what stops them.
+    /// Takes back what contacts damp particles with beyond what stops pairs, and nine tenths of what stops a particle.
     fn slacken(&mut self) {
-        let most = self.method.cfl / (1.05 * self.dt.max(self.free));
-        for contact in &mut self.contacts {
-            let rate = contact.pair.map(|i| self.particles[i].damped);
-            let left = (most / rate[0].max(rate[1])).min(1.0);
-            let force = times(contact.r, contact.drag * (1.0 - left));
-            contact.drag *= left;
+        if self.dt == 0.0 {
+            let rates = self.particles.iter().map(|p| p.damped);
+            self.rate = self.rate.max(rates.fold(0.0, f64::max));
+            return;
+        }
+        let longest = 0.5 * (self.dt + 1.05 * self.free);
+        let contacts: Vec<Contact> = self.contacts.drain(..).collect();
+        let masses = |c: &Contact| c.pair.map(|i| self.particles[i].mass);
+        let coefficient = |c: &Contact| {
+            let [i, j] = c.pair;
+            let closing = -dot(c.r, sub(self.velocity(i), self.velocity(j)));
+            if c.drag > 0.0 { c.drag * dot(c.r, c.r) / closing } else { 0.0 }
+        };
+        let alone = |c: &Contact| {
+            let whole: f64 = masses(c).map(|m| coefficient(c) / m).iter().sum();
+            if whole * longest > 1.0 { 1.0 / (whole * longest) } else { 1.0 }
+        };
+        let mut damped = vec![0.0; self.particles.len()];
+        for c in &contacts {
+            for (i, m) in c.pair.into_iter().zip(masses(c)) {
+                damped[i] += alone(c) * coefficient(c) / m;
+            }
+        }
+        let parts: Vec<f64> = contacts
+            .iter()
+            .map(|c| {
+                let most = c.pair.map(|i| damped[i]).into_iter().fold(0.0, f64::max) * longest;
+                alone(c) * if most > 0.9 { 0.9 / most } else { 1.0 }
+            })
+            .collect();
+        for (mut contact, part) in contacts.into_iter().zip(parts) {
+            let force = times(contact.r, contact.drag * (1.0 - part));
+            contact.drag *= part;
+            self.slackened += usize::from(part < 1.0);
             let [i, j] = contact.pair;
             self.particles[i].force = sub(self.particles[i].force, force);
             self.particles[j].force = add(self.particles[j].force, force);
-            if self.dt == 0.0 {
-                self.rate = self.rate.max(rate[0].max(rate[1]));
-            }
+            self.contacts.push(contact);
         }
     }
 

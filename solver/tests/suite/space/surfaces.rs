@@ -4,6 +4,7 @@ use whipple_solver::space::Simulation;
 use whipple_solver::space::mapping::Mapping;
 use whipple_solver::space::restart::Values;
 use whipple_solver::space::scene::{Body, Scene, Shape};
+use whipple_solver::space::votes::Voter;
 
 use super::scenes::{bits, block, body, copper, march, scene, start};
 
@@ -132,6 +133,9 @@ fn bodies_do_not_leap_through_each_other() {
     let still = block("copper", [3, 3, 3], 0.1);
     let fast = Body { centre: [-1.0, 0.0, 0.0], velocity: [100.0, 0.0, 0.0], ..still.clone() };
     let mut simulation = start(&scene(vec![copper()], vec![still, fast]));
+    // They touch at 0.007.
+    simulation.advance_to(0.006).expect("nothing is met before");
+    assert!(simulation.votes().decided[Voter::Leap as usize] > 0);
     // Until the second would have passed the first by its own length, if nothing ends the run before.
     let met = simulation.advance_to(0.016).is_err() || simulation.holdings()[0].momentum[0] > 0.0;
     assert!(met, "{:?}", simulation.holdings()[0].momentum);
