@@ -8,6 +8,7 @@ use whipple_solver::space::method::Method;
 use whipple_solver::space::output::Particle;
 use whipple_solver::space::restart::{Section, Values};
 use whipple_solver::space::scene::{Body, Scene, Shape, Side};
+use whipple_solver::space::votes::{Voter, Votes};
 
 use super::scenes::{block, body, copper, gas, march, mirror, push, scene, start, steel, strong};
 
@@ -197,4 +198,30 @@ fn a_corner_that_is_pushed_in_late_is_not_thrown_back_faster() {
             assert!(after >= -speed * 0.394 && part < 0.9, "{after}");
         }
     }
+}
+
+/// Debris that closes at several times its sound speed: its viscosity neither throws it back nor shortens the step.
+#[test]
+fn debris_that_closes_fast_is_not_thrown_back() {
+    let mut material = copper();
+    material.failure.melt = Some(310.0);
+    let body = Body { energy: 0.02, ..block("copper", [3, 3, 3], 0.1) };
+    let mut simulation = start(&scene(vec![material], vec![body]));
+    march(&mut simulation, 40);
+    assert_eq!(simulation.failed(), (27, 27));
+    let speed = 3.0 * 0.394;
+    push(&mut simulation, |p| p.position.map(|x| -speed * x.signum()));
+    let kinetic = |simulation: &Simulation| simulation.holdings()[0].kinetic;
+    let (before, votes) = (kinetic(&simulation), *simulation.votes());
+    let mut most = 0.0f64;
+    for _ in 0..60 {
+        march(&mut simulation, 1);
+        most = most.max(kinetic(&simulation) / before);
+    }
+    let lessened = simulation.counters().lessened;
+    let left = kinetic(&simulation) / before;
+    println!("at most {most:.6} of the energy before, {left:.3} at the end, {lessened} lessened");
+    assert!(most < 1.001 && left < 0.9 && lessened > 0);
+    let by_contacts = |votes: &Votes| votes.decided[Voter::Contacts as usize];
+    assert_eq!(by_contacts(simulation.votes()), by_contacts(&votes));
 }
