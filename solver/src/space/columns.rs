@@ -147,12 +147,14 @@ columns! {
         sound,
         /// Density at the time of the positions.
         rho,
+        /// Change of the volume of the live elements' shares, at the positions before the last drift.
+        volume,
     }
 }
 
 columns! {
     /// Sums over elements and contacts.
-    Sums, SumsSlices, 14 {
+    Sums, SumsSlices, 15 {
         /// Force; once the particle is kicked, the mean velocity of the step.
         fx,
         /// The same, second component.
@@ -163,12 +165,18 @@ columns! {
         volume,
         /// Its rate over the mean velocity of the step.
         volume_rate,
-        /// Its rate over the velocity before the kick.
-        volume_rate_before,
         /// Heat, but for the work of the elements' volumes.
         heat,
         /// Density rate by contacts.
         rho_rate,
+    }
+}
+
+impl State {
+    /// Displacements and velocities.
+    #[must_use]
+    pub fn motion(&self) -> ([&[f64]; 3], [&[f64]; 3]) {
+        ([&self.dx, &self.dy, &self.dz], [&self.vx, &self.vy, &self.vz])
     }
 }
 

@@ -153,12 +153,9 @@ impl Simulation {
     #[must_use]
     pub fn holdings(&self) -> Vec<Holdings> {
         let mut all: Vec<Holdings> = (0..self.mesh.bodies.len()).map(|k| self.carried(k)).collect();
-        let state = &self.state;
-        let displacement: [&[f64]; 3] = [&state.dx, &state.dy, &state.dz];
-        let velocity: [&[f64]; 3] = [&state.vx, &state.vy, &state.vz];
         for group in &self.groups {
             let body = &self.mesh.bodies[group.body as usize];
-            let (columns, step) = ((displacement, velocity), (&self.method, self.dt));
+            let (columns, step) = (self.state.motion(), (&self.method, self.dt));
             let [shear, tension, hourglass] = if body.mapped.is_empty() {
                 group.stored(&Cells::<false>::new(body, group.centre), columns, step)
             } else {

@@ -668,6 +668,18 @@ impl Group {
         }
     }
 
+    /// Lanes that die after the step.
+    pub fn dying_lanes(&self) -> impl Iterator<Item = u32> + use<> {
+        let Self { lanes, dying, .. } = *self;
+        (0..u32::from(lanes)).filter(move |lane| dying >> lane & 1 == 1)
+    }
+
+    /// The nine particles of a lane, slot by slot.
+    pub fn particles(&self, lane: u32) -> impl Iterator<Item = usize> + '_ {
+        let nodes = (0..8).map(|slot| self.node(slot));
+        nodes.chain([self.centre as usize]).map(move |first| first + lane as usize)
+    }
+
     /// Node of a slot of lane 0.
     #[inline(always)]
     #[must_use]

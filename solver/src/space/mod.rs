@@ -24,6 +24,7 @@ pub mod simulation;
 pub mod strength;
 mod surfaces;
 pub mod sweep;
+pub mod volumes;
 pub mod votes;
 pub mod walls;
 #[cfg(target_arch = "x86_64")]

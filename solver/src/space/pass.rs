@@ -27,12 +27,12 @@ pub trait Pass<C>: Sync {
     type Output: Copy + Send + Sync;
     /// Result of nothing.
     const NONE: Self::Output;
-    /// What is done with a group.
+    /// What is done with a group, when those before it have given so much.
     fn group<F: Lanes, const MAPPED: bool>(
         &self,
         group: &mut Group,
         cells: &Cells<'_, MAPPED>,
-        sink: &mut Sink<C>,
+        sink: (&mut Sink<C>, &Self::Output),
     ) -> Self::Output;
     /// Asks for what a group will read and write.
     fn fetch<F: Lanes>(&self, group: &Group, sink: &Sink<C>);
@@ -172,7 +172,8 @@ impl<C, P: Pass<C>, const MAPPED: bool> Kernel for Whole<'_, '_, P, C, MAPPED> {
             if group.awake && group.live != 0 {
                 let body = &mesh.bodies[group.body as usize];
                 let cells = Cells::<MAPPED>::new(body, group.centre);
-                out = P::and(out, pass.group::<F, MAPPED>(group, &cells, &mut sink));
+                let own = pass.group::<F, MAPPED>(group, &cells, (&mut sink, &out));
+                out = P::and(out, own);
             }
             groups = rest;
         }
@@ -197,9 +198,9 @@ impl<'c> Pass<SumsSlices<'c>> for Load<'_> {
         &self,
         group: &mut Group,
         cells: &Cells<'_, MAPPED>,
-        sink: &mut Sink<SumsSlices<'c>>,
+        (sink, so_far): (&mut Sink<SumsSlices<'c>>, &Demand),
     ) -> Demand {
-        group.load_particles::<F, MAPPED>(cells, &self.laws, &self.read, sink)
+        group.load_particles::<F, MAPPED>(cells, &self.laws, &self.read, (sink, so_far.rate))
     }
 
     #[inline(always)]
@@ -239,7 +240,7 @@ impl<'c> Pass<AllSlices<'c>> for Motion<'_> {
         &self,
         group: &mut Group,
         cells: &Cells<'_, MAPPED>,
-        sink: &mut Sink<AllSlices<'c>>,
+        (sink, _): (&mut Sink<AllSlices<'c>>, &Moved),
     ) -> Moved {
         Moved { power: group.work::<F, MAPPED>(cells, &self.laws, sink), ..Self::NONE }
     }

@@ -14,7 +14,8 @@ use super::pass::{COLOURS, Load, Motion, Pass, over_elements};
 use super::phase::Phase;
 use super::scene::Scene;
 use super::surfaces::Surfaces;
-use super::sweep::{Allowed, Particles, Respond, Stage};
+use super::sweep::{Allowed, Lengths, Particles, Respond, Stage};
+use super::volumes;
 use super::votes::{Voter, Votes};
 use super::walls::{Given, Wall};
 use crate::counters::Counters;
@@ -381,6 +382,11 @@ impl Simulation {
 
     /// Sets the length of the step; walls push what would cross them.
     fn keep_in(&mut self, dt: f64) {
+        if self.dt == 0.0 && self.volumes {
+            let of = (&self.mesh, &self.groups[..]);
+            let volume = &mut self.derived.volume;
+            volumes::look_back(of, &self.state, (&self.method, dt), volume);
+        }
         self.kick = 0.5 * (self.dt + dt);
         self.dt = dt;
         for wall in &self.walls {
@@ -436,9 +442,13 @@ impl Simulation {
 
     /// How the step ends.
     fn end(&self) -> Stage {
+        // The kick is the mean of two drifts; the first step has a drift of its own length before it.
+        let before = 2.0 * self.kick - self.dt;
+        let before = if before > 0.0 { before } else { self.dt };
+        let lengths = Lengths { before, kick: self.kick, drift: self.dt };
         match self.method.density {
-            Density::Kernel => Stage::Moved(self.kick, self.dt),
-            Density::Nonholonomic | Density::Hybrid => Stage::Whole(self.kick, self.dt),
+            Density::Kernel => Stage::Moved(lengths),
+            Density::Nonholonomic | Density::Hybrid => Stage::Whole(lengths),
         }
     }
 
@@ -485,12 +495,13 @@ impl Simulation {
         }
         let mut buried = false;
         for group in self.groups.iter_mut().filter(|group| group.dying != 0) {
-            for lane in (0..u32::from(group.lanes)).filter(|lane| group.dying >> lane & 1 == 1) {
+            if self.volumes {
+                let volume = &mut self.derived.volume;
+                volumes::forget((&self.mesh, group), &self.state, (&self.method, self.dt), volume);
+            }
+            for lane in group.dying_lanes() {
                 self.mesh.bury(group.centre + lane);
-                let nodes = (0..8).map(|slot| group.node(slot) as u32 + lane);
-                for i in nodes.chain([group.centre + lane]) {
-                    self.contacts.expose(&self.mesh, i as usize);
-                }
+                group.particles(lane).for_each(|i| self.contacts.expose(&self.mesh, i));
             }
             group.live &= !group.dying;
             group.dying = 0;

@@ -83,12 +83,23 @@ pub struct Particles<'a> {
 /// A part of the response.
 #[derive(Debug, Clone, Copy)]
 pub enum Stage {
-    /// The end of a step after a kick and a drift of these lengths, and the equation of state.
-    Whole(f64, f64),
+    /// The end of a step, and the equation of state.
+    Whole(Lengths),
     /// The same, but rates of density and energy stay in the sums, for [`Stage::State`].
-    Moved(f64, f64),
+    Moved(Lengths),
     /// The equation of state alone, half of this long after the last kick, at densities known.
     State(f64),
+}
+
+/// Lengths of the parts of a step.
+#[derive(Debug, Clone, Copy)]
+pub struct Lengths {
+    /// Of the drift before it.
+    pub before: f64,
+    /// Of its kick.
+    pub kick: f64,
+    /// Of its drift.
+    pub drift: f64,
 }
 
 /// The response of all particles, piece by piece, with these instructions.
@@ -136,7 +147,10 @@ impl Particles<'_> {
     /// velocities over the step, Eqs. (63), (74).
     #[inline(always)]
     pub fn kick<F: Lanes>(&self, columns: &mut AllSlices<'_>, at: usize, i: usize) {
-        let (Stage::Whole(kick, _) | Stage::Moved(kick, _)) = self.stage else { return };
+        let (Stage::Whole(Lengths { kick, .. }) | Stage::Moved(Lengths { kick, .. })) = self.stage
+        else {
+            return;
+        };
         let piece = self.mesh.piece_of(i);
         if !self.active[piece] {
             return;
@@ -178,8 +192,8 @@ impl Particles<'_> {
             at,
         };
         let (now, volume, ended) = match self.stage {
-            Stage::Whole(kick, dt) => own.end_step(columns, kick, dt, false),
-            Stage::Moved(kick, dt) => own.end_step(columns, kick, dt, true),
+            Stage::Whole(lengths) => own.end_step(columns, lengths, false),
+            Stage::Moved(lengths) => own.end_step(columns, lengths, true),
             Stage::State(dt) => (own.state(columns, dt), F::zero(), Allowed::ANYTHING),
         };
         let Allowed { sound, density, .. } = own.evaluate(columns, &now, (volume, self.volumes));
@@ -211,8 +225,7 @@ impl<F: Lanes> Eight<'_, F> {
     fn end_step(
         &self,
         (state, derived, sums): &mut AllSlices<'_>,
-        kick: f64,
-        dt: f64,
+        Lengths { before, kick, drift: dt }: Lengths,
         keep_rates: bool,
     ) -> (Now<F>, F, Allowed) {
         let at = self.at;
@@ -224,9 +237,13 @@ impl<F: Lanes> Eight<'_, F> {
         if alone != 0 {
             rho_rate = F::select(self.free(derived, alone), self.free_rate(derived), rho_rate);
         }
-        // The drift is over the velocity after the kick, and so is what it does to volumes: with the
-        // mean velocity, pressures would lag behind the positions and feed the fastest waves.
-        let ahead = volume_rate - F::load(sums.volume_rate_before, at);
+        // The drift is over the velocity after the kick, and so is what it does to volumes: with the mean velocity,
+        // pressures would lag behind the positions and feed the fastest waves. What the velocity before the kick does to
+        // them is what the drift before has done.
+        let per_before = if before > 0.0 { 1.0 / before } else { 0.0 };
+        let volume = F::load(sums.volume, at);
+        let ahead = volume_rate - (volume - F::load(derived.volume, at)) * per_before;
+        volume.store(derived.volume, at);
         let grip = F::load(derived.grip, at);
         let per_mass = F::splat(1.0) / self.mass;
         let gain = (F::load(sums.heat, at) - grip * volume_rate * kick) * per_mass;
@@ -241,7 +258,7 @@ impl<F: Lanes> Eight<'_, F> {
         let u_rate = if kick > 0.0 { gain * (1.0 / kick) } else { F::zero() };
         rho.store(state.rho, at);
         u.store(state.u, at);
-        let volume = F::load(sums.volume, at) + (volume_rate + ahead) * dt;
+        let volume = volume + (volume_rate + ahead) * dt;
         let mut finite = u + rho;
         for (x, v, mean) in [
             (&mut *state.dx, &mut *state.vx, &mut *sums.fx),
@@ -257,7 +274,7 @@ impl<F: Lanes> Eight<'_, F> {
             F::zero().store(mean, at);
             finite += moved;
         }
-        for column in [&mut *sums.volume, &mut *sums.volume_rate, &mut *sums.volume_rate_before] {
+        for column in [&mut *sums.volume, &mut *sums.volume_rate] {
             F::zero().store(column, at);
         }
         let rho_rate = rho_rate - F::load(derived.dilate, at) * ahead;

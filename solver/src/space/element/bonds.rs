@@ -55,38 +55,40 @@ impl<F: Lanes> Seen<'_, F> {
     }
 }
 
-/// Viscosity of the bonds of a cell by direction.
+/// Viscosity of the bonds of a cell.
 struct Damping<F> {
-    /// Of those that act, `sum nu n n^T`: what damps the centroid.
-    own: Symmetric<F>,
-    /// Of all eight, `sum n n^T`, and the largest `nu` that acts: what may damp a corner, which has a bond in each
-    /// of its cells.
-    all: Symmetric<F>,
-    most: F,
+    /// Of each, where it acts.
+    nu: [F; 8],
+    /// Inverse squares of their lengths.
+    inverse: [F; 8],
 }
 
 impl<F: Lanes> Damping<F> {
     #[inline(always)]
     fn none() -> Self {
-        Self { own: Symmetric::zero(), all: Symmetric::zero(), most: F::zero() }
-    }
-
-    /// Adds a bond `r` with the viscosity `nu`, and the inverse square of its length.
-    #[inline(always)]
-    fn add(&mut self, r: &V3<F>, nu: F, inverse: F) {
-        self.own.add(r, nu * inverse);
-        self.all.add(r, inverse);
-        self.most = self.most.max(nu);
+        Self { nu: [F::zero(); 8], inverse: [F::zero(); 8] }
     }
 
     /// Rates at which corners and centroid, moving against each other, are damped: each has half of the mass
-    /// of a cell, and a bond takes from either what it takes from both. Corners on edges of a body are as much
-    /// lighter as they have fewer bonds, which then point one way.
+    /// of a cell, and a bond takes from either what it takes from both. The centroid is damped by the bonds that act,
+    /// `sum nu n n^T`; a corner, which has a bond in each of its cells, at most by all eight with the largest `nu`
+    /// that acts. Corners on edges of a body are as much lighter as they have fewer bonds, which then point one way.
     #[inline(always)]
-    fn rates<const MAPPED: bool>(&self, light: Mask, cells: &Cells<'_, MAPPED>) -> Symmetric<F> {
-        let corner = self.most * F::select(light, F::splat(3.0), F::splat(1.0));
-        let both = self.own.plus(&self.all.times(corner));
-        both.times(cells.volume_as(|volume| 2.0 / (cells.body.rho_0 * volume)))
+    fn rates<const MAPPED: bool>(
+        &self,
+        seen: &Seen<'_, F>,
+        light: Mask,
+        cells: &Cells<'_, MAPPED>,
+    ) -> Symmetric<F> {
+        let most = self.nu.iter().fold(F::zero(), |most, nu| most.max(*nu));
+        let corner = most * F::select(light, F::splat(3.0), F::splat(1.0));
+        let per_mass: F = cells.volume_as(|volume| 2.0 / (cells.body.rho_0 * volume));
+        let mut rates = Symmetric::zero();
+        for slot in 0..8 {
+            let r = sub(&seen.y[slot], &seen.y[CENTRE]);
+            rates.add(&r, (self.nu[slot] + corner) * self.inverse[slot] * per_mass);
+        }
+        rates
     }
 }
 
@@ -122,14 +124,15 @@ impl Group {
             let nu = (pair + speed * (2.0 * method.visc_quad)) * half;
             let bond = nu * approach * inverse;
             self.bonds[slot] = bond.pack();
-            damping.add(&r, nu.keep(speed.gt(pair * QUIET)), inverse);
+            damping.nu[slot] = nu.keep(speed.gt(pair * QUIET));
+            damping.inverse[slot] = inverse;
             loads.pull(slot, &r, bond);
             if conducts {
                 let difference = seen.theta[slot] - seen.theta[CENTRE];
                 loads.conduct(slot, (pair * difference).keep(near) * conduct);
             }
         }
-        damping.rates(self.light, cells)
+        damping.rates(seen, self.light, cells)
     }
 
     /// Viscosity on what neighbouring jumps along the diagonal do not explain, and the heat flux in
@@ -186,13 +189,14 @@ impl Group {
             let nu = mass * F::select(closing, shock, sound * method.visc_expansion);
             let bond = nu * jump * inverse;
             self.bonds[slot] = bond.pack();
-            damping.add(&r, nu.keep(speed.abs().gt(sound * QUIET)), inverse);
+            damping.nu[slot] = nu.keep(speed.abs().gt(sound * QUIET));
+            damping.inverse[slot] = inverse;
             loads.pull(slot, &r, bond);
             if conducts {
                 let difference = seen.theta[slot] - seen.theta[CENTRE];
                 loads.conduct(slot, mass * speed.max(zero) * (difference * conduct));
             }
         }
-        damping.rates(self.light, cells)
+        damping.rates(seen, self.light, cells)
     }
 }

@@ -1,8 +1,8 @@
 //! Drag against hourglass modes, which keeps lattices of solids without strength from warping (decision
 //! 0019).
 
-use super::kinematics::{gradient, spread};
-use super::{V3, cross, dot};
+use super::kinematics::{Frame, gradient, spread};
+use super::{V3, dot};
 use crate::space::cells::Cells;
 use crate::space::hourglass::{corners, modes, resist};
 use crate::space::lanes::Lanes;
@@ -54,20 +54,13 @@ impl<F: Lanes> Warp<F> {
         y: &[V3<F>; 9],
         cells: &Cells<'_, MAPPED>,
     ) -> Self {
-        let mut along = gradient(u, cells);
-        for (along, axis) in along.iter_mut().zip(&cells.body.lattice.axes) {
-            for (own, axis) in along.iter_mut().zip(axis) {
-                *own += F::splat(*axis);
-            }
-        }
-        let [a, b, c] = along;
-        let across = [cross(&b, &c), cross(&c, &a), cross(&a, &b)];
-        let (jacobian, least) = (dot(&a, &across[0]), F::splat(LEAST));
+        let frame = Frame::new(gradient(u, cells), &cells.body.lattice.axes);
+        let (jacobian, least) = (frame.jacobian(), F::splat(LEAST));
         let inverse = F::splat(1.0) / jacobian.max(least);
         let warp = amplitudes(y);
         let mut back = [[F::zero(); 3]; 4];
         for (back, warp) in back.iter_mut().zip(&warp) {
-            for (back, across) in back.iter_mut().zip(&across) {
+            for (back, across) in back.iter_mut().zip(&frame.across) {
                 *back = dot(across, warp) * inverse;
             }
         }

@@ -75,35 +75,75 @@ pub(super) fn spread<F: Lanes, const MAPPED: bool>(
     each!(slot in 9 => [by_way[0][slot], by_way[1][slot], by_way[2][slot]])
 }
 
-/// Deformation of up to eight elements, Eqs. (14)-(15), in lattice axes.
+/// What the lattice axes of up to eight elements have become.
+pub(super) struct Frame<F> {
+    /// Where they point: `F` column by column, in global axes. `F F^T` is the sum of their squares.
+    pub(super) axes: [V3<F>; 3],
+    /// Of each two: the cofactors of `F`, column by column.
+    pub(super) across: [V3<F>; 3],
+}
+
+impl<F: Lanes> Frame<F> {
+    /// With this gradient of the displacement along the axes.
+    #[inline(always)]
+    pub(super) fn new(mut axes: [V3<F>; 3], undeformed: &[[f64; 3]; 3]) -> Self {
+        for (own, axis) in axes.iter_mut().zip(undeformed) {
+            for (own, axis) in own.iter_mut().zip(axis) {
+                *own += F::splat(*axis);
+            }
+        }
+        let [a, b, c] = &axes;
+        Self { across: [cross(b, c), cross(c, a), cross(a, b)], axes }
+    }
+
+    /// `J = det F`.
+    #[inline(always)]
+    pub(super) fn jacobian(&self) -> F {
+        dot(&self.axes[0], &self.across[0])
+    }
+
+    /// First Piola-Kirchhoff stress of the shear energy (24) by the strain (14)-(16), over `J^(-2/3)`: one vector an
+    /// axis of the lattice.
+    #[inline(always)]
+    pub(super) fn piola(&self, s: &Sym<F>, jacobian: F) -> [V3<F>; 3] {
+        let [a, b, c] = &self.axes;
+        let full = [[s[0], s[3], s[4]], [s[3], s[1], s[5]], [s[4], s[5], s[2]]];
+        let mut out = each!(axis in 3 => {
+            let s = full[axis];
+            each!(d in 3 => a[d] * s[0] + b[d] * s[1] + c[d] * s[2])
+        });
+        let [on_a, on_b, on_c] = &out;
+        let third = (dot(a, on_a) + dot(b, on_b) + dot(c, on_c)) * (1.0 / 3.0) / jacobian;
+        for (out, across) in out.iter_mut().zip(&self.across) {
+            for (out, across) in out.iter_mut().zip(across) {
+                *out -= third * *across;
+            }
+        }
+        out
+    }
+}
+
+/// `J^(-1/3)`. An inverted element has no root; it is dying, and its shear is not used.
+#[inline(always)]
+pub(super) fn root<F: Lanes>(jacobian: F) -> F {
+    jacobian.max(F::splat(1e-3)).inverse_cube_root()
+}
+
+/// Deformation of up to eight elements, Eqs. (14)-(15).
 pub(super) struct Kinematics<F> {
-    /// `F`, row by row.
-    pub(super) f: [F; 9],
-    /// Cofactors of `F`, row by row.
-    pub(super) cofactor: [F; 9],
-    /// `F^T F`.
-    pub(super) c: Sym<F>,
+    /// `F^T F` in lattice axes, exactly one without deformation.
+    c: Sym<F>,
     /// `J = det F`.
     pub(super) jacobian: F,
     /// `J^(-1/3)`.
-    pub(super) root: F,
-    /// What the lattice axes have become, in global axes: `F F^T` is the sum of their squares.
-    axes: [V3<F>; 3],
-}
-
-/// `F^T F`.
-#[inline(always)]
-pub(super) fn right_cauchy_green<F: Lanes>(f: &[F; 9]) -> Sym<F> {
-    each!(k in 6 => {
-        let [i, j] = [[0, 0], [1, 1], [2, 2], [0, 1], [0, 2], [1, 2]][k];
-        f[i] * f[j] + f[3 + i] * f[3 + j] + f[6 + i] * f[6 + j]
-    })
+    root: F,
+    frame: Frame<F>,
 }
 
 impl<F: Lanes> Kinematics<F> {
     #[inline(always)]
     pub(super) fn new<const MAPPED: bool>(u: &[V3<F>; 9], cells: &Cells<'_, MAPPED>) -> Self {
-        let mut along = gradient(u, cells);
+        let along = gradient(u, cells);
         let axes = &cells.body.lattice.axes;
         let f = each!(k in 9 => {
             let (g, axis) = (&along[k % 3], &axes[k / 3]);
@@ -111,22 +151,12 @@ impl<F: Lanes> Kinematics<F> {
             b + if k / 3 == k % 3 { 1.0 } else { 0.0 }
         });
         let (a, b, c) = ([f[0], f[1], f[2]], [f[3], f[4], f[5]], [f[6], f[7], f[8]]);
-        let (bc, ca, ab) = (cross(&b, &c), cross(&c, &a), cross(&a, &b));
-        let jacobian = dot(&a, &bc);
-        for (along, axis) in along.iter_mut().zip(axes) {
-            for (own, axis) in along.iter_mut().zip(axis) {
-                *own += F::splat(*axis);
-            }
-        }
-        Self {
-            axes: along,
-            cofactor: [bc[0], bc[1], bc[2], ca[0], ca[1], ca[2], ab[0], ab[1], ab[2]],
-            c: right_cauchy_green(&f),
-            f,
-            jacobian,
-            // An inverted element has no root; it is dying, and its shear is not used.
-            root: jacobian.max(F::splat(1e-3)).inverse_cube_root(),
-        }
+        let jacobian = dot(&a, &cross(&b, &c));
+        let c = each!(k in 6 => {
+            let [i, j] = [[0, 0], [1, 1], [2, 2], [0, 1], [0, 2], [1, 2]][k];
+            f[i] * f[j] + f[3 + i] * f[3 + j] + f[6 + i] * f[6 + j]
+        });
+        Self { c, jacobian, root: root(jacobian), frame: Frame::new(along, axes) }
     }
 
     /// `(J^(-2/3) C - I) / 2`, Eqs. (14)-(15).
@@ -150,7 +180,7 @@ impl<F: Lanes> Kinematics<F> {
     pub(super) fn shear_squared(&self, undeformed: F) -> Symmetric<F> {
         let q = self.root * self.root;
         let mut squares = Symmetric::zero();
-        for axis in &self.axes {
+        for axis in &self.frame.axes {
             squares.add(axis, q * q * undeformed);
         }
         squares
@@ -165,29 +195,6 @@ impl<F: Lanes> Kinematics<F> {
         (q * q * contract(&self.c, &self.c) - 3.0).max(F::zero()) * (4.0 / 9.0)
     }
 
-    /// First Piola-Kirchhoff stress of the shear energy (24) by the strain (14)-(16), rows turned to global
-    /// axes.
-    #[inline(always)]
-    pub(super) fn piola(&self, s: &Sym<F>, axes: &[[f64; 3]; 3]) -> [F; 9] {
-        let q = self.root * self.root;
-        let third = contract(s, &self.c) * (1.0 / 3.0) / self.jacobian;
-        let full = [s[0], s[3], s[4], s[3], s[1], s[5], s[4], s[5], s[2]];
-        let mut out = [F::zero(); 9];
-        for column in 0..3 {
-            let mut own = [F::zero(); 3];
-            for (row, own) in own.iter_mut().enumerate() {
-                let f = &self.f[3 * row..3 * row + 3];
-                let fs = f[0] * full[column] + f[1] * full[3 + column] + f[2] * full[6 + column];
-                *own = q * (fs - third * self.cofactor[3 * row + column]);
-            }
-            for row in 0..3 {
-                out[3 * row + column] =
-                    own[0] * axes[0][row] + own[1] * axes[1][row] + own[2] * axes[2][row];
-            }
-        }
-        out
-    }
-
     /// The corner forces of the shear stress, `-V_o P grad N`.
     #[inline(always)]
     pub(super) fn forces<const MAPPED: bool>(
@@ -196,9 +203,23 @@ impl<F: Lanes> Kinematics<F> {
         cells: &Cells<'_, MAPPED>,
         live: Mask,
     ) -> [V3<F>; 9] {
-        let piola = self.piola(stress, &cells.body.lattice.axes);
-        let volume = -cells.volume::<F>();
-        let along = each!(axis in 3 => each!(d in 3 => (piola[3 * d + axis] * volume).keep(live)));
+        let piola = self.frame.piola(stress, self.jacobian);
+        let scale = self.root * self.root * -cells.volume::<F>();
+        let along = piola.map(|axis| axis.map(|x| (x * scale).keep(live)));
         spread(&along, cells)
     }
+}
+
+/// Power of the shear stress against a velocity, over the volume, Eq. (24).
+#[inline(always)]
+pub(super) fn shear_power<F: Lanes, const MAPPED: bool>(
+    (u, v): (&[V3<F>; 9], &[V3<F>; 9]),
+    stress: &Sym<F>,
+    cells: &Cells<'_, MAPPED>,
+) -> F {
+    let frame = Frame::new(gradient(u, cells), &cells.body.lattice.axes);
+    let jacobian = frame.jacobian();
+    let ([a, b, c], [u, v, w]) = (frame.piola(stress, jacobian), gradient(v, cells));
+    let root = root(jacobian);
+    (dot(&a, &u) + dot(&b, &v) + dot(&c, &w)) * (root * root)
 }

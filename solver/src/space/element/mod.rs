@@ -23,7 +23,7 @@ pub use self::pyramid::{corner_volumes, pyramid_volumes};
 
 use self::bonds::{Loads, Seen};
 use self::drag::Warp;
-use self::kinematics::{Kinematics, gradient};
+use self::kinematics::{Kinematics, shear_power};
 use self::pyramid::{Extent, Pyramid, shares, tension, tension_energy};
 use self::symmetric::Symmetric;
 use super::cells::Cells;
@@ -139,14 +139,14 @@ fn shape<F: Lanes, const MAPPED: bool>(u: &[V3<F>; 9], cells: &Cells<'_, MAPPED>
 
 impl Group {
     /// First pass: forces, conduction (62) and the heat of flow and damage (61), half of it to the centroid
-    /// and a sixteenth to each corner: `phi` of (60).
+    /// and a sixteenth to each corner: `phi` of (60). A rate below that `so_far` is not made out.
     #[inline(always)]
     pub fn load_particles<F: Lanes, const MAPPED: bool>(
         &mut self,
         cells: &Cells<'_, MAPPED>,
         laws: &Laws,
         read: &Read<'_>,
-        sink: &mut Sink<SumsSlices<'_>>,
+        (sink, so_far): (&mut Sink<SumsSlices<'_>>, f64),
     ) -> Demand {
         let (live, body) = (self.live, cells.body);
         let u: [V3<F>; 9] = self.gather_vector(read.displacement);
@@ -168,15 +168,16 @@ impl Group {
         };
         let mut freed = self.damage(cells, (&opening, held), laws.dt);
         let intact = F::splat(1.0) - F::of(self.damage);
-        let (mut force, shear) = if body.solid.mu > 0.0 {
+        // Over the sum of the faces; with the squares of shear the stiffness.
+        let mut volume_squared = F::zero();
+        let (mut force, mut stiffness) = if body.solid.mu > 0.0 {
             freed += self.shear(cells, &motion, (mean, intact, laws.dt));
             let stress = each!(k in 6 => F::of(self.stress[k]));
             // Of planes of nodes, which have half of the mass and move against each other in turns.
             let planes: F =
                 cells.edge_as(|edge| 32.0 / 3.0 * body.solid.mu / (body.rho_0 * edge * edge));
-            let bulk = intact * (body.solid.mu / body.rho_0) * motion.shear_bulk();
-            let squares = motion.shear_squared(planes * intact).plus(&extent.volume_squared(bulk));
-            (motion.forces(&stress, cells, live), squares)
+            volume_squared = extent.by_speed(intact * (body.solid.mu / body.rho_0) * motion.shear_bulk());
+            (motion.forces(&stress, cells, live), motion.shear_squared(planes * intact))
         } else {
             ([[F::zero(); 3]; 9], Symmetric::zero())
         };
@@ -191,17 +192,15 @@ impl Group {
         let mut loads = Loads { force, heat };
 
         let mut push = each!(k in 6 => -tension(opening[k], intact, body.solid.bulk).keep(live));
-        let mut stiffness = extent.tension_squared(&opening, intact, cells).plus(&shear);
+        volume_squared += extent.tension_squared(&opening, intact, cells);
         let mut damping = Symmetric::zero();
         if laws.volumes {
             self.carry((laws, read), &mut push);
             let v: [V3<F>; 9] = self.gather_vector(read.velocity);
-            let rates: [F; 6] = each!(k in 6 => pyramids[k].rate(&v, FACES[k]).keep(live));
-            let share = shares(&rates, laws.method.balance);
-            self.scatter(&share, sink.nodes.volume_rate_before, sink.first_node);
-            self.scatter_centre(share[CENTRE], sink.centres.volume_rate_before, sink.first_centre);
             let sound: [F; 9] = self.gather(read.sound);
-            stiffness = stiffness.plus(&extent.pressure_squared(&sound, self.bare));
+            let pressure = extent.pressure_squared(&sound);
+            volume_squared += pressure;
+            stiffness.widen((extent.faces.trace() * pressure).keep(self.bare));
             let seen = Seen { y: &y, v: &v, sound: &sound, theta: &theta };
             damping = match laws.method.viscosity {
                 Viscosity::Limited => self.limited(&seen, (cells, laws, read), &mut loads),
@@ -224,13 +223,14 @@ impl Group {
         self.scatter_vector(&loads.force, sink);
         self.scatter(&loads.heat, sink.nodes.heat, sink.first_node);
         self.scatter_centre(loads.heat[CENTRE], sink.centres.heat, sink.first_centre);
+        stiffness = stiffness.plus(&extent.faces.times(volume_squared));
         stiffness.widen(rate_squared);
         if let Some(lightest) = cells.lightest::<F>() {
             let heavier = F::splat(1.0) / lightest;
             (stiffness, damping) = (stiffness.times(heavier), damping.times(heavier));
         }
-        let rate = symmetric::rate(&stiffness, &damping);
-        Demand { rate: rate.keep(live).largest(), dying: self.dying != 0, heat: freed.sum() }
+        let rate = symmetric::rate((&stiffness, &damping), (live, so_far));
+        Demand { rate, dying: self.dying != 0, heat: freed.sum() }
     }
 
     /// Second pass: volumes and, all over the mean velocity of the step, their rates, which take the place
@@ -266,14 +266,7 @@ impl Group {
         }
         if body.solid.mu > 0.0 {
             let stress = each!(k in 6 => F::of(self.stress[k]));
-            let piola = Kinematics::new(&u, cells).piola(&stress, &body.lattice.axes);
-            let gradient = gradient(&v, cells);
-            let mut shear = F::zero();
-            for row in 0..3 {
-                for (axis, gradient) in gradient.iter().enumerate() {
-                    shear += piola[3 * row + axis] * gradient[row];
-                }
-            }
+            let shear = shear_power((&u, &v), &stress, cells);
             power += (shear * cells.volume::<F>()).keep(self.live);
         }
         if laws.volumes {
@@ -319,20 +312,47 @@ impl Group {
         power.sum()
     }
 
+    /// Displacements a time `dt` ago, at these velocities, and the velocities.
+    fn ago(
+        &self,
+        (displacement, velocity): ([&[f64]; 3], [&[f64]; 3]),
+        dt: f64,
+    ) -> [[V3<F8>; 9]; 2] {
+        let mut u: [V3<F8>; 9] = self.gather_vector(displacement);
+        let v: [V3<F8>; 9] = self.gather_vector(velocity);
+        for (u, v) in u.iter_mut().zip(&v) {
+            *u = sub(u, &v.map(|v| v * dt));
+        }
+        [u, v]
+    }
+
+    /// Shares of the nine particles in the change of the volume of each live element, at the positions before a drift
+    /// of length `dt`, and in its rate there.
+    #[must_use]
+    pub fn volumes<const MAPPED: bool>(
+        &self,
+        cells: &Cells<'_, MAPPED>,
+        columns: ([&[f64]; 3], [&[f64]; 3]),
+        (method, dt): (&Method, f64),
+    ) -> [[F8; 9]; 2] {
+        let [u, v] = self.ago(columns, dt);
+        let y = shape(&u, cells);
+        let pyramids = each!(k in 6 => Pyramid::new(&y, FACES[k], cells.pyramid(k)));
+        let growths = each!(k in 6 => pyramids[k].growth.keep(self.live));
+        let rates = each!(k in 6 => pyramids[k].rate(&v, FACES[k]).keep(self.live));
+        [growths, rates].map(|pyramids| shares(&pyramids, method.balance))
+    }
+
     /// Energy stored by lane: in shear (24), from the stress of the last step, in tension (25) and in
     /// hourglass modes, at the positions before the last drift, which was of length `dt`.
     #[must_use]
     pub fn stored<const MAPPED: bool>(
         &self,
         cells: &Cells<'_, MAPPED>,
-        (displacement, velocity): ([&[f64]; 3], [&[f64]; 3]),
+        columns: ([&[f64]; 3], [&[f64]; 3]),
         (method, dt): (&Method, f64),
     ) -> [F8; 3] {
-        let mut u: [V3<F8>; 9] = self.gather_vector(displacement);
-        let v: [V3<F8>; 9] = self.gather_vector(velocity);
-        for (u, v) in u.iter_mut().zip(&v) {
-            *u = sub(u, &v.map(|v| v * dt));
-        }
+        let [u, _] = self.ago(columns, dt);
         let y = shape(&u, cells);
         let opening = each!(k in 6 => Pyramid::new(&y, FACES[k], cells.pyramid::<F8>(k)).growth * cells.per_pyramid::<F8>(k));
         let intact = F8::splat(1.0) - self.damage;

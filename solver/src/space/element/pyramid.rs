@@ -3,7 +3,7 @@
 use super::symmetric::Symmetric;
 use super::{CENTRE, FACES, V3, cross, dot, sub};
 use crate::space::cells::Cells;
-use crate::space::lanes::{F8, Lanes, Mask, each};
+use crate::space::lanes::{F8, Lanes, each};
 
 /// A pyramid from the centroid to a face.
 #[derive(Debug, Clone, Copy)]
@@ -55,15 +55,16 @@ impl<F: Lanes> Pyramid<F> {
     #[inline(always)]
     pub(super) fn push(&self, [a, b, c, d]: [usize; 4], push: F, force: &mut [V3<F>; 9]) {
         let sixth = push * (1.0 / 6.0);
-        let (gw, we) = (cross(&self.g, &self.w), cross(&self.w, &self.e));
+        let w = self.w.map(|w| w * sixth);
+        let (gw, we) = (cross(&self.g, &w), cross(&w, &self.e));
         for k in 0..3 {
-            let fourth = self.area[k] * (sixth * 0.25);
-            let (gw, we) = (gw[k] * sixth, we[k] * sixth);
-            force[CENTRE][k] -= self.area[k] * sixth;
-            force[a][k] += fourth - gw;
-            force[c][k] += fourth + gw;
-            force[b][k] += fourth - we;
-            force[d][k] += fourth + we;
+            let own = self.area[k] * sixth;
+            let fourth = own * 0.25;
+            force[CENTRE][k] -= own;
+            force[a][k] += fourth - gw[k];
+            force[c][k] += fourth + gw[k];
+            force[b][k] += fourth - we[k];
+            force[d][k] += fourth + we[k];
         }
     }
 }
@@ -99,7 +100,7 @@ pub(super) struct Extent<F> {
     /// Square of twice the largest face.
     pub(super) largest: F,
     /// Sum over the six faces `a a^T`, twice their areas.
-    faces: Symmetric<F>,
+    pub(super) faces: Symmetric<F>,
 }
 
 impl<F: Lanes> Extent<F> {
@@ -115,39 +116,38 @@ impl<F: Lanes> Extent<F> {
     }
 
     /// Squares of the frequencies of the cell's pressure, `4 c^2 (A_1 A_1^T + A_2 A_2^T + A_3 A_3^T) / V^2`: by
-    /// axes, a bound for a lattice of such cells. Particles on the surface of a body, where cells are `bare`,
-    /// have half of the mass or less, which adds the trace (decision 0020).
+    /// axes, a bound for a lattice of such cells. Over the sum of the faces. Particles on the surface of a body have
+    /// half of the mass or less, which adds the trace (decision 0020).
     #[inline(always)]
-    pub(super) fn pressure_squared(&self, sound: &[F; 9], bare: Mask) -> Symmetric<F> {
+    pub(super) fn pressure_squared(&self, sound: &[F; 9]) -> F {
         let mut fastest = sound[CENTRE];
         for sound in &sound[..8] {
             fastest = fastest.max(*sound);
         }
-        let mut squares = self.volume_squared(fastest * fastest);
-        squares.widen(squares.trace().keep(bare));
-        squares
+        self.by_speed(fastest * fastest)
     }
 
-    /// Squares of the frequencies of what resists changes of the volume with this square of a sound speed.
+    /// Squares of the frequencies of what resists changes of the volume with this square of a sound speed, over the
+    /// sum of the faces.
     #[inline(always)]
-    pub(super) fn volume_squared(&self, speed_squared: F) -> Symmetric<F> {
+    pub(super) fn by_speed(&self, squared: F) -> F {
         // Of three pairs of faces that come doubled.
-        self.faces.times(speed_squared * 0.5 / (self.volume * self.volume))
+        squared * 0.5 / (self.volume * self.volume)
     }
 
-    /// Squares of the frequencies of tension, where a pyramid is open: twice what pressure has of the same
-    /// modulus, since it acts on the whole of a cell and not on the half of its centroid.
+    /// Squares of the frequencies of tension, where a pyramid is open, over the sum of the faces: twice what pressure
+    /// has of the same modulus, since it acts on the whole of a cell and not on the half of its centroid.
     #[inline(always)]
     pub(super) fn tension_squared<const MAPPED: bool>(
         &self,
         opening: &[F; 6],
         intact: F,
         cells: &Cells<'_, MAPPED>,
-    ) -> Symmetric<F> {
+    ) -> F {
         let body = cells.body;
         let scale: F = cells.volume_as(|volume| body.solid.bulk / (body.rho_0 * volume * volume));
         let widest = opening.iter().fold(F::zero(), |widest, opening| widest.max(*opening));
-        self.faces.times((scale * intact).keep(widest.gt(F::zero())))
+        (scale * intact).keep(widest.gt(F::zero()))
     }
 }
 

@@ -2,7 +2,7 @@
 //! time step that a stiffness and a damping allow together (decision 0020).
 
 use super::{V3, dot};
-use crate::space::lanes::Lanes;
+use crate::space::lanes::{Lanes, Mask};
 
 /// A symmetric matrix that is nowhere negative.
 #[derive(Debug, Clone, Copy)]
@@ -65,18 +65,25 @@ impl<F: Lanes> Symmetric<F> {
     }
 }
 
-/// Inverse of a time step at which `K dt^2/4 + D dt/2` has no eigenvalue above one: what leapfrog with
-/// the damping `D` of the last velocities bears, whatever the axes of the two.
+/// Inverse of a time step at which `K dt^2/4 + D dt/2` has no eigenvalue above one in any lane that is asked for: what
+/// leapfrog with the damping `D` of the last velocities bears, whatever the axes of the two. Nothing if it is surely
+/// below what others ask for.
 #[inline(always)]
-pub(super) fn rate<F: Lanes>(stiffness: &Symmetric<F>, damping: &Symmetric<F>) -> F {
+pub(super) fn rate<F: Lanes>(
+    (stiffness, damping): (&Symmetric<F>, &Symmetric<F>),
+    (lanes, others): (Mask, f64),
+) -> f64 {
     // As if both were largest along the same axis; then they are less than one by `slack`, and a step
     // longer by its root is still safe, since no term grows by more than the square.
     let half = damping.largest() * 0.5;
     let rate = (half + (half * half + stiffness.largest()).sqrt()) * 0.5;
+    if rate.gt(F::splat(others)) & lanes == 0 {
+        return 0.0;
+    }
     let step = F::splat(1.0) / rate.max(F::splat(f64::MIN_POSITIVE.sqrt()));
     let slack =
         stiffness.times(step * step * 0.25).plus(&damping.times(step * 0.5)).largest().sqrt();
-    rate * slack
+    (rate * slack).keep(lanes).largest()
 }
 
 #[cfg(test)]
@@ -111,7 +118,7 @@ mod tests {
     #[test]
     fn stiffness_and_damping_along_one_axis_add_up_and_along_two_do_not() {
         let [x, y] = [matrix(&[[2.0, 0.0, 0.0]]), matrix(&[[0.0, 2.0, 0.0]])];
-        let both = |a: &Symmetric<F8>, b: &Symmetric<F8>| rate(a, b).0[0];
+        let both = |a: &Symmetric<F8>, b: &Symmetric<F8>| rate((a, b), (Mask::MAX, 0.0));
         // omega^2 = 4, damping 4: 1/dt = (2 + sqrt(8))/2.
         assert!((both(&x, &x) - (1.0 + 2f64.sqrt())).abs() < 1e-14);
         let apart = both(&x, &y);

@@ -123,7 +123,10 @@ pub struct Particle {
     heat: f64,
     growth: f64,
     growth_rate: f64,
+    /// Over the velocity before the kick: by gradients in the first step, then what the last drift has done.
     growth_rate_before: f64,
+    /// Of live elements, at the positions before the last drift.
+    growth_before: f64,
     contact_rate: f64,
     touched: bool,
     /// Rate at which contacts damp it.
@@ -478,6 +481,9 @@ impl Plain {
             let gain = times(p.force, kick / p.mass);
             p.mean = add(p.v, times(gain, 0.5));
             p.v = add(p.v, gain);
+            if before > 0.0 {
+                p.growth_rate_before = (p.growth - p.growth_before) / before;
+            }
         }
         self.work(kick);
         self.spring_work(kick);
@@ -625,7 +631,9 @@ impl Plain {
                 (0..9).map(|slot| dot(slopes[slot], self.particles[slots[slot]].v)).sum();
             for slot in 0..9 {
                 forces[slot] = add(forces[slot], times(slopes[slot], push));
-                self.particles[slots[slot]].growth_rate_before += weights[slot] * rate;
+                if self.dt == 0.0 {
+                    self.particles[slots[slot]].growth_rate_before += weights[slot] * rate;
+                }
             }
         }
         let fastest = slots.iter().map(|&i| self.particles[i].sound).fold(0.0, f64::max);
@@ -1242,6 +1250,7 @@ impl Plain {
             let growth = p.growth + (p.growth_rate + ahead) * dt;
             p.displacement = add(p.displacement, times(p.v, dt));
             (p.force, p.heat) = ([0.0; 3], 0.0);
+            p.growth_before = p.growth;
             (p.growth, p.growth_rate, p.growth_rate_before) = (0.0, 0.0, 0.0);
             (p.contact_rate, p.damped) = (0.0, 0.0);
 
@@ -1269,6 +1278,21 @@ impl Plain {
         }
     }
 
+    /// Shares of the particles of an element in its growth, at the positions before the last drift.
+    fn growth_before(&self, e: usize) -> [f64; 9] {
+        let (rest, now) = self.points(e);
+        let slots = self.slots(e);
+        let then: [V; 9] =
+            std::array::from_fn(|k| sub(now[k], times(self.particles[slots[k]].v, self.dt)));
+        let mut growth = [0.0; 9];
+        for face in faces() {
+            let weights = weights(face, self.method.balance);
+            let grown = pyramid(&then, face) - pyramid(&rest, face);
+            growth.iter_mut().zip(weights).for_each(|(growth, weight)| *growth += weight * grown);
+        }
+        growth
+    }
+
     fn bury(&mut self) {
         let before = self.deaths;
         for e in 0..self.elements.len() {
@@ -1278,9 +1302,11 @@ impl Plain {
             }
             element.live = false;
             self.deaths += 1;
-            for i in self.slots(e) {
+            let lost = self.growth_before(e);
+            for (i, lost) in self.slots(e).into_iter().zip(lost) {
                 let p = &mut self.particles[i];
                 p.live -= if i == self.elements[e].centre { 8 } else { 1 };
+                p.growth_before -= lost;
                 p.exposed = true;
             }
         }
