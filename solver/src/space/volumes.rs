@@ -39,11 +39,7 @@ pub fn forget(
     }
 }
 
-fn shares(
-    (mesh, group): (&Mesh, &Group),
-    state: &State,
-    step: (&Method, f64),
-) -> [[F8; 9]; 2] {
+fn shares((mesh, group): (&Mesh, &Group), state: &State, step: (&Method, f64)) -> [[F8; 9]; 2] {
     let body = &mesh.bodies[usize::from(group.body)];
     if body.mapped.is_empty() {
         group.volumes(&Cells::<false>::new(body, group.centre), state.motion(), step)

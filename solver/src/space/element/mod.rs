@@ -176,7 +176,8 @@ impl Group {
             // Of planes of nodes, which have half of the mass and move against each other in turns.
             let planes: F =
                 cells.edge_as(|edge| 32.0 / 3.0 * body.solid.mu / (body.rho_0 * edge * edge));
-            volume_squared = extent.by_speed(intact * (body.solid.mu / body.rho_0) * motion.shear_bulk());
+            volume_squared =
+                extent.by_speed(intact * (body.solid.mu / body.rho_0) * motion.shear_bulk());
             (motion.forces(&stress, cells, live), motion.shear_squared(planes * intact))
         } else {
             ([[F::zero(); 3]; 9], Symmetric::zero())
