@@ -61,11 +61,11 @@ use crate::scene::AnyScene;
 /// How much is run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, clap::ValueEnum)]
 pub enum Level {
-    /// The smallest sizes: 1 to 2 minutes for all cases.
+    /// Few sizes of every case, not always its smallest.
     Quick,
-    /// Most sizes that claims need: 5 to 6 minutes.
+    /// Most sizes that claims need.
     Standard,
-    /// Every size that a claim needs, the long rod at 9 cells and its variants too: about 35 minutes.
+    /// Every size that a claim needs, the long rod at 9 cells and its variants too.
     Full,
 }
 

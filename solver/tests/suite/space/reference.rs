@@ -695,8 +695,8 @@ impl Plain {
         self.elements[e].bonds = bonds;
         let mass = 0.5 * solid.material.density * solid.volume;
         let missing = self.elements[e].beyond.iter().filter(|b| b.is_none()).count();
-        let corners = if missing > 4 { scaled(&ONE, 8.0) } else { all };
-        let mut damping = scaled(&plus(&ways, most, &corners), 1.0 / mass);
+        let corner = if missing > 4 { 3.0 * most } else { most };
+        let mut damping = scaled(&plus(&ways, corner, &all), 1.0 / mass);
         let weights = self.hourglass_weights(&now, body);
         let whole = self.drag(e);
         let drag = whole / lighter(&weights);
@@ -708,8 +708,8 @@ impl Plain {
                 forces[slot] = sub(forces[slot], times(rate, drag * weights[slot]));
             }
         }
-        let alone = 0.5 * largest(&damping);
-        let half = 0.75 * alone;
+        let alone = largest(&damping) / 1.5;
+        let half = 0.375 * largest(&damping);
         let rate = 0.5 * (half + (half * half + largest(&squares)).sqrt());
         let slack = plus(&scaled(&squares, 0.25 / (rate * rate)), 0.375 / rate, &damping);
         self.rate = self.rate.max(rate * largest(&slack).sqrt()).max(alone);
