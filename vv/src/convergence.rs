@@ -9,6 +9,8 @@ mod order;
 
 use serde::{Deserialize, Serialize};
 
+use crate::words::counted;
+
 pub use grid::{
     Behaviour, Estimate, GridStudy, LOWEST_ORDER, ORDER_TOLERANCE, OrderCheck, SAFETY_OTHERWISE,
     SAFETY_THREE_LEVELS, grid_study,
@@ -37,7 +39,7 @@ impl Level {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ConvergenceError {
     /// Fewer levels than the method needs.
-    #[error("{found} levels given, at least {wanted} needed")]
+    #[error("{}, at least {wanted} needed", counted(*found, ["level given", "levels given"]))]
     TooFewLevels {
         /// Levels given.
         found: usize,

@@ -28,4 +28,5 @@ pub mod suggest;
 pub mod suite;
 pub mod validation;
 pub mod vtk;
+pub mod words;
 mod xml;

@@ -14,6 +14,8 @@ use whipple_solver::error::{SceneError, StepError};
 use whipple_solver::space::phase::Phase;
 use whipple_solver::space::{Scene, Simulation};
 
+use crate::words::counted;
+
 pub use tables::{figure, machine, phases, work};
 
 /// Parts of a run whose times are kept apart, for the figure.
@@ -29,7 +31,7 @@ pub enum PaceError {
     #[error(transparent)]
     Step(#[from] StepError),
     /// Threads that cannot be started.
-    #[error("cannot start {threads} threads: {reason}")]
+    #[error("cannot start {}: {reason}", counted(*threads, ["thread", "threads"]))]
     Threads {
         /// Number of threads.
         threads: usize,

@@ -5,6 +5,7 @@
 //! cell that is not what was asked for is an error with file, line and column.
 
 use crate::suggest::did_you_mean;
+use crate::words::counted;
 use std::path::Path;
 
 /// What a cell of numbers must look like.
@@ -32,7 +33,10 @@ pub enum ReferenceError {
         missing: &'static str,
     },
     /// A row has more or fewer cells than the header.
-    #[error("{file}, line {line}: {found} cells, wanted {wanted}, one for each column name")]
+    #[error(
+        "{file}, line {line}: {}, wanted {wanted}, one for each column name",
+        counted(*found, ["cell", "cells"])
+    )]
     Ragged {
         /// Name of the file.
         file: String,
@@ -380,10 +384,13 @@ mod tests {
         assert_eq!(parsed(""), format!("t.csv: no column names; {empty}"));
         assert_eq!(parsed("# source\n\n"), format!("t.csv: no column names; {empty}"));
         assert_eq!(parsed("# source\na,b\n"), format!("t.csv: no rows; {empty}"));
-        let ragged = "cells, wanted 2, one for each column name";
-        assert_eq!(parsed("# s\na,b\n1,2\n\n\n3\n"), format!("t.csv, line 6: 1 {ragged}"));
-        assert_eq!(parsed("a,b\r\n1,2\r\n\r\n3,4,5\r\n"), format!("t.csv, line 4: 3 {ragged}"));
-        assert_eq!(parsed("a,b\n1,2\n# late\n3,4\n"), format!("t.csv, line 3: 1 {ragged}"));
+        let ragged = "wanted 2, one for each column name";
+        assert_eq!(parsed("# s\na,b\n1,2\n\n\n3\n"), format!("t.csv, line 6: 1 cell, {ragged}"));
+        assert_eq!(
+            parsed("a,b\r\n1,2\r\n\r\n3,4,5\r\n"),
+            format!("t.csv, line 4: 3 cells, {ragged}")
+        );
+        assert_eq!(parsed("a,b\n1,2\n# late\n3,4\n"), format!("t.csv, line 3: 1 cell, {ragged}"));
         for bad in ["NaN", "-inf", "1e999"] {
             assert_eq!(
                 parsed(&format!("# s\na,b\n1,{bad}\n")),

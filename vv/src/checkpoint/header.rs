@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::element::ElementType;
 use super::error::CheckpointError;
 use super::shuffle::LARGEST_RATIO;
+use crate::words::counted;
 
 /// First bytes of every checkpoint.
 const MAGIC: [u8; 8] = *b"\x89WHP\r\n\x1a\n";
@@ -102,7 +103,7 @@ fn header_of(file: &[u8]) -> Result<&[u8], CheckpointError> {
         return Err(CheckpointError::header("other first bytes", "those of a checkpoint"));
     }
     let cut = || {
-        let found = format!("the file ends after {} bytes", file.len());
+        let found = format!("the file ends after {}", bytes_of(file.len() as u64));
         CheckpointError::header(found, "a whole header")
     };
     let word = |at: usize| {
@@ -155,19 +156,25 @@ fn check_table(sections: &[SectionInfo], bytes: u64) -> Result<(), CheckpointErr
             let found = format!("begins at byte {}", section.offset);
             return Err(wrong(&found, format!("byte {end}, where the one before ends")));
         }
-        let whole = || wrong("the file ends before it does", format!("{} bytes", section.length));
+        let whole = || wrong("the file ends before it does", bytes_of(section.length));
         end = end.checked_add(section.length).filter(|&end| end <= bytes).ok_or_else(whole)?;
         let most = section.length.saturating_mul(LARGEST_RATIO);
         if section.bytes().is_none_or(|bytes| bytes > most) {
             let found = format!("shape {:?}", section.shape);
-            return Err(wrong(&found, format!("at most {most} bytes for its stored length")));
+            return Err(wrong(&found, format!("at most {} for its stored length", bytes_of(most))));
         }
     }
     if end == bytes {
         return Ok(());
     }
-    let found = format!("{} bytes follow the last section", bytes - end);
+    let follow = counted((bytes - end) as usize, ["byte follows", "bytes follow"]);
+    let found = format!("{follow} the last section");
     Err(CheckpointError::header(found, "the end of the file"))
+}
+
+/// A number of bytes in words.
+fn bytes_of(bytes: u64) -> String {
+    counted(bytes as usize, ["byte", "bytes"])
 }
 
 impl SectionInfo {

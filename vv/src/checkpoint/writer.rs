@@ -7,6 +7,7 @@ use super::error::CheckpointError;
 use super::header::{Meta, SectionInfo, encode};
 use super::shuffle::pack;
 use crate::files::write_atomic;
+use crate::words::counted;
 
 /// A checkpoint in the making. Sections are compressed as they are added; the arrays need not
 /// outlive the call.
@@ -89,7 +90,7 @@ impl Writer {
         let count = shape.iter().try_fold(1_usize, |count, &extent| count.checked_mul(extent));
         if count != Some(values.len()) {
             let wanted = format!("as many as the shape {shape:?} has");
-            return Err(wrong(format!("{} values", values.len()), wanted));
+            return Err(wrong(counted(values.len(), ["value", "values"]), wanted));
         }
         let stored =
             pack(values).map_err(|error| wrong(error.to_string(), "a zlib stream".to_owned()))?;

@@ -12,6 +12,7 @@ use crate::plots;
 use crate::record::{RunKey, Scheme};
 use crate::report::{self, Align, Cell, Column, Table};
 use crate::suite::scene_of;
+use crate::words::counted;
 
 impl From<CostError> for Failure {
     fn from(error: CostError) -> Self {
@@ -61,8 +62,8 @@ fn rod(args: &BenchArgs) -> Result<(), Failure> {
     let largest = scene(kernel, "as-printed")?.into();
     expect(rod, ("--cells", args.cells), &largest, Keeps::default())?;
     let run = |(scheme, variant): (Scheme, &str), threads: usize| {
-        let (label, cells) = (scheme.label(), args.cells);
-        say(&format!("long rod, {cells} cells across, {label}, threads: {threads} ..."));
+        let (label, cells) = (scheme.label(), counted(args.cells, ["cell", "cells"]));
+        say(&format!("long rod, {cells} across, {label}, threads: {threads} ..."));
         Ok::<_, Failure>(measure(&label, &scene(scheme, variant)?, stretch, threads)?)
     };
     let default = (Scheme::preset(Preset::Default), "");

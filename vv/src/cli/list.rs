@@ -12,6 +12,7 @@ use crate::claims::{Claim, Weight};
 use crate::keys::{Key, idle, of_method, of_presets, of_problem};
 use crate::scene::AnyScene;
 use crate::suite::level_of;
+use crate::words::counted;
 
 /// Columns of the terminal that texts are broken for.
 const WIDTH: usize = 100;
@@ -95,11 +96,10 @@ fn claims_of(case: &dyn Case) -> String {
     claims.sort_by_key(|claim| claim.weight);
     let count = |weight| claims.iter().filter(|claim| claim.weight == weight).count();
     let mut text = format!(
-        "\nClaims: {} required, {} goals, {} known limits shown. The level is the lowest that runs what a \
-         claim needs.\n",
+        "\nClaims: {} required, {}, {} shown. The level is the lowest that runs what a claim needs.\n",
         count(Weight::Must),
-        count(Weight::Aim),
-        count(Weight::Shown)
+        counted(count(Weight::Aim), ["goal", "goals"]),
+        counted(count(Weight::Shown), ["known limit", "known limits"])
     );
     for claim in &claims {
         let Claim { weight, kind, what, wanted, source, in_sample, .. } = claim;
@@ -230,6 +230,14 @@ mod tests {
         assert_eq!(wrapped("µ", 2), "  µ\n");
         let whole = wrapped(&format!("{} a\u{a0}b", "x".repeat(WIDTH - 2)), 0);
         assert!(whole.ends_with("\na b\n"), "{whole}");
+    }
+
+    /// One goal is no goals.
+    #[test]
+    fn claims_are_counted_in_words() {
+        let all = ALL.map(claims_of).concat();
+        assert!(all.contains(" 1 goal, ") && all.contains(" 2 goals, "), "{all}");
+        assert!(!all.contains(" 1 goals, ") && !all.contains(" 1 known limits shown"), "{all}");
     }
 
     /// `full` runs what every claim needs, as its help says.

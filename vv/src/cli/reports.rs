@@ -18,6 +18,7 @@ use crate::plots;
 use crate::record::{Outcome, Records};
 use crate::report::{self, Drawing, Pictures};
 use crate::suite::{Forecast, covers, forecast, records_folder, run_suite, scene_of, verdicts};
+use crate::words::counted;
 
 /// Files that are named of those that differ.
 const NAMED: usize = 5;
@@ -67,7 +68,8 @@ fn expected(cases: &[&'static dyn Case], level: Level, forecast: &Forecast) -> S
         _ if all => format!("all {} cases", ALL.len()),
         cases => cases.iter().map(|case| case.id()).collect::<Vec<&str>>().join(", "),
     };
-    let mut text = format!("level {}: {runs} runs of {what}", level.name());
+    let runs_of = counted(runs, ["run of", "runs of"]);
+    let mut text = format!("level {}: {runs_of} {what}", level.name());
     if unknown < runs {
         text += &format!(
             ", about {} of CPU time by the records of the folder",
@@ -90,8 +92,14 @@ fn expected(cases: &[&'static dyn Case], level: Level, forecast: &Forecast) -> S
         0 => text,
         left => {
             text + &format!(
-                "\n{left} claims need runs of another level, and rest on records of the folder, if it \
-                 has them; `--level full` runs all"
+                "\n{} on records of the folder, if it has them; `--level full` runs all",
+                counted(
+                    left,
+                    [
+                        "claim needs runs of another level, and rests",
+                        "claims need runs of another level, and rest"
+                    ]
+                )
             )
         }
     }
@@ -137,8 +145,10 @@ fn difference(stale: usize, mut differing: Vec<String>) -> String {
     differing.sort_unstable();
     let why = match stale {
         0 => String::new(),
-        1 => "1 claim is of records older than the solver; ".into(),
-        _ => format!("{stale} claims are of records older than the solver; "),
+        _ => {
+            let claims = counted(stale, ["claim is", "claims are"]);
+            format!("{claims} of records older than the solver; ")
+        }
     };
     let named = differing.len().min(NAMED);
     let more = match differing.len() - named {
@@ -258,6 +268,9 @@ mod tests {
                 .replace("26", &ALL.len().to_string())
         );
         let rod = [crate::cases::find(rod).expect("the case")];
+        let one = Forecast { runs: 1, unknown: 1, ..Forecast::default() };
+        let said = expected(&rod, Level::Full, &one);
+        assert_eq!(said, "level full: 1 run of long-rod; no record tells the time of 1");
         let said = expected(&rod, Level::Quick, &unknown);
         let (first, second) = said.split_once('\n').expect("two lines");
         assert_eq!(first, "level quick: 7 runs of long-rod; no record tells the time of 7");
@@ -275,6 +288,10 @@ mod tests {
     fn differences_are_named_in_order_and_counted() {
         let files = |all: &[&str]| all.iter().map(ToString::to_string).collect::<Vec<String>>();
         assert_eq!(difference(0, files(&["b", "a"])), "not what the records give: a, b");
+        assert_eq!(
+            difference(1, files(&["a"])),
+            "1 claim is of records older than the solver; not what the records give: a"
+        );
         assert_eq!(
             difference(517, files(&["g", "f", "e", "d", "c", "b", "a"])),
             "517 claims are of records older than the solver; not what the records give: a, b, c, d, e and 2 \

@@ -124,7 +124,7 @@ fn two_levels_use_the_formal_order() {
 fn bad_input_is_named() {
     let study = |data: &[(f64, f64)], formal| grid_study(&levels(data), formal).unwrap_err();
     let text = |error: ConvergenceError| error.to_string();
-    assert_eq!(text(study(&[(1.0, 1.0)], 1.0)), "1 levels given, at least 2 needed");
+    assert_eq!(text(study(&[(1.0, 1.0)], 1.0)), "1 level given, at least 2 needed");
     assert_eq!(
         text(study(&[(1.0, 1.0), (0.0, 2.0)], 1.0)),
         "the spacing of level 1 (counted from 0) is 0, not a finite number above zero"

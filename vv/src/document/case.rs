@@ -7,6 +7,7 @@ use crate::plots::Figure;
 use crate::record::{Outcome, Records, RunKey, RunRecord, Scheme};
 use crate::report::{Block, Cell, Column, Section, Status, Table, sig};
 use crate::suite::command_of;
+use crate::words::{counted, either};
 
 use super::front::{claims_table, escaped, tally};
 
@@ -63,11 +64,12 @@ fn missing(case: &dyn Case, records: &Records) -> Vec<Block> {
         return Vec::new();
     }
     let text = format!(
-        "Of the {} runs that `whipple vv {} --level full` makes {} have no record here, and whatever \
-         needs them is missing above:",
-        runs.len(),
+        "Of the {} that `whipple vv {} --level full` makes {} no record here, and whatever needs {} is \
+         missing above:",
+        counted(runs.len(), ["run", "runs"]),
         case.id(),
-        missing.len()
+        counted(missing.len(), ["has", "have"]),
+        either(missing.len(), ["it", "them"])
     );
     vec![Block::Callout { kind: Status::Warn, text }, Block::List(missing)]
 }
@@ -243,4 +245,37 @@ fn orders_table(case: &dyn Case, runs: &[&RunRecord]) -> Option<Table> {
         columns,
         rows,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::run::blank;
+
+    /// What is said of a case where so many of its runs have no record.
+    fn said(unmade: usize) -> Option<String> {
+        let case = crate::cases::find("heat-chain").expect("the case");
+        let mut records = Records::default();
+        for key in case.runs(Extent::Full).into_iter().skip(unmade) {
+            records.insert(blank(key, 1, String::new()));
+        }
+        missing(case, &records).into_iter().find_map(|block| match block {
+            Block::Callout { text, .. } => Some(text),
+            _ => None,
+        })
+    }
+
+    #[test]
+    fn missing_runs_are_counted() {
+        assert_eq!(said(0), None);
+        let [one, two] = [1, 2].map(|unmade| said(unmade).expect("a remark"));
+        assert!(
+            one.ends_with(" makes 1 has no record here, and whatever needs it is missing above:")
+        );
+        assert!(
+            two.ends_with(
+                " makes 2 have no record here, and whatever needs them is missing above:"
+            )
+        );
+    }
 }

@@ -4,6 +4,7 @@ use crate::cases::Case;
 use crate::claims::{Kind, Status as Judged, Verdict, Weight};
 use crate::record::{Outcome, Records, RunRecord, Scheme};
 use crate::report::{Block, Cell, Column, Section, Status, Summary, Table, Tally, sig};
+use crate::words::{counted, either};
 
 /// The verdict in a sentence, with counts. Cases that were not run are named, and not counted.
 pub(super) fn verdict(verdicts: &[Verdict], not_run: &[&dyn Case]) -> Summary {
@@ -12,7 +13,8 @@ pub(super) fn verdict(verdicts: &[Verdict], not_run: &[&dyn Case]) -> Summary {
     };
     let required = tally(verdicts);
     let Tally { held: passed, failed, missing } = required;
-    let mut text = format!("{passed} of {} required claims hold", required.all());
+    let claims = counted(required.all(), ["required claim", "required claims"]);
+    let mut text = format!("{passed} of {claims} {}", either(passed, ["holds", "hold"]));
     let balances = tally(verdicts.iter().filter(|v| v.claim.quantity.is_balance()));
     if balances.all() > 0 {
         let (held, all) = (balances.held, balances.all());
@@ -24,20 +26,22 @@ pub(super) fn verdict(verdicts: &[Verdict], not_run: &[&dyn Case]) -> Summary {
         );
     }
     if missing > 0 {
-        text += &format!("; {missing} have no record");
+        text += &format!("; {} no record", counted(missing, ["has", "have"]));
     }
     let aims = (count(Weight::Aim, Judged::Pass), count(Weight::Aim, Judged::Fail));
     text += ".";
     if aims.0 + aims.1 > 0 {
-        let all = aims.0 + aims.1;
-        text += &format!(" Of the goals beyond them {} of {all} are reached.", aims.0);
+        let (all, are) = (aims.0 + aims.1, either(aims.0, ["is", "are"]));
+        text += &format!(" Of the goals beyond them {} of {all} {are} reached.", aims.0);
     }
     let stale = verdicts.iter().filter(|v| v.stale).count();
     if stale > 0 {
-        text += &format!(" {stale} claims rest on records older than the solver.");
+        let claims = counted(stale, ["claim rests", "claims rest"]);
+        text += &format!(" {claims} on records older than the solver.");
     }
     if !not_run.is_empty() {
-        text += &format!(" {} cases were not run, and are not counted.", not_run.len());
+        let were_not = ["case was not run, and is", "cases were not run, and are"];
+        text += &format!(" {} not counted.", counted(not_run.len(), were_not));
     }
     let mut counts = vec![(Status::Pass, passed), (Status::Fail, failed)];
     if missing > 0 {
@@ -402,4 +406,31 @@ pub(super) fn provenance(records: &Records) -> Section {
                  `whipple report` redraws this page from the records.";
     blocks.push(Block::Paragraph(again.into()));
     Section::new("provenance", "Provenance", blocks)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cases::find;
+    use crate::claims::judge;
+
+    /// One of what is counted has a sentence of its own.
+    #[test]
+    fn the_verdict_has_singulars() {
+        let case = find("heat-chain").expect("the case");
+        let mut claims = case.claims();
+        claims.retain(|claim| claim.weight == Weight::Must && !claim.quantity.is_balance());
+        claims.truncate(2);
+        let text = |claims: &[crate::claims::Claim], not_run: &[&dyn Case]| {
+            verdict(&judge(claims.to_vec(), &Records::default()), not_run).text
+        };
+        assert_eq!(
+            text(&claims[..1], &[case]),
+            "0 of 1 required claim hold; 1 has no record. 1 case was not run, and is not counted."
+        );
+        assert_eq!(
+            text(&claims, &[case, case]),
+            "0 of 2 required claims hold; 2 have no record. 2 cases were not run, and are not counted."
+        );
+    }
 }

@@ -26,6 +26,8 @@ pub use style::{THEME, themed};
 
 use thiserror::Error;
 
+use crate::words::counted;
+
 /// Why a figure could not be drawn.
 #[derive(Debug, Error)]
 pub enum PlotError {
@@ -39,7 +41,11 @@ pub enum PlotError {
     #[error("axis `{0}` cannot have these limits")]
     Range(String),
     /// There must be one error bar per point, or none.
-    #[error("series `{name}` has {points} points but {errors} error bars")]
+    #[error(
+        "series `{name}` has {} but {}",
+        counted(*points, ["point", "points"]),
+        counted(*errors, ["error bar", "error bars"])
+    )]
     ErrorBars {
         /// The series.
         name: String,

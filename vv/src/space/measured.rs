@@ -2,6 +2,7 @@
 //! run that goes on from one gives the record of a run that was never stopped.
 
 use crate::checkpoint::{CheckpointError, Reader, Writer};
+use crate::words::counted;
 
 /// Names of the sections.
 const TIMES: &str = "measured.times";
@@ -98,7 +99,7 @@ impl Measured {
             return Err(CheckpointError::Section {
                 name: COUNTS.to_owned(),
                 found: "other numbers of values".to_owned(),
-                wanted: format!("{there} values in all"),
+                wanted: counted(there, ["value in all", "values in all"]),
             });
         }
         let mut rest = values.as_slice();

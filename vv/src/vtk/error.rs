@@ -4,6 +4,7 @@ use std::io;
 use std::path::PathBuf;
 
 use crate::files::FileError;
+use crate::words::{counted, either};
 
 /// A state that was not written.
 #[derive(Debug, thiserror::Error)]
@@ -63,8 +64,9 @@ pub enum GridError {
     },
     /// A field is longer or shorter than what it describes.
     #[error(
-        "{place} field `{name}` has {found} values, wanted {components} for each of the {entries} \
-         {place}s"
+        "{place} field `{name}` has {}, wanted {components} for each of the {entries} {place}{}",
+        counted(*found, ["value", "values"]),
+        either(*entries, ["", "s"])
     )]
     Length {
         /// `point` or `cell`.

@@ -108,7 +108,7 @@ fn every_flipped_bit_is_refused() {
 fn bytes_in_excess_are_refused() {
     let mut file = small();
     file.push(0);
-    let wanted = "header: 1 bytes follow the last section, wanted the end of the file";
+    let wanted = "header: 1 byte follows the last section, wanted the end of the file";
     assert_eq!(refusal(file), wanted);
 }
 
