@@ -44,7 +44,7 @@ struct Cli {
 const EXAMPLES: &str = "\
 Examples:
   whipple vv                          run every case, judge, write the report to reports/
-  whipple vv noh --level quick        one case, small sizes
+  whipple vv noh --level quick        one case, few sizes
   whipple list noh                    what is measured and claimed of a case
   whipple run noh --preset paper --n 400 --json
   whipple run sod --set heating=printed --out out/sod
@@ -186,7 +186,7 @@ struct VvArgs {
     /// Cases; all when none is named
     cases: Vec<String>,
     /// How much to run
-    #[arg(long, value_enum, default_value_t = Level::Standard)]
+    #[arg(long, value_parser = reports::levels(), default_value = Level::Standard.name())]
     level: Level,
     /// Folder of the report
     #[arg(long, value_name = "DIR", default_value = "reports")]

@@ -43,7 +43,7 @@ fn line(case: &dyn Case) -> String {
 /// The default size and those of the levels.
 fn sizes(case: &dyn Case) -> String {
     let mut text = format!("--n {} by default", case.default_size());
-    let of = |level| case.runs(level).into_iter().map(|key| key.n).collect::<BTreeSet<usize>>();
+    let of = |level| sizes_of(case, level);
     let mut levels = Level::ALL.into_iter().peekable();
     while let Some(level) = levels.next() {
         let sizes = of(level);
@@ -57,6 +57,18 @@ fn sizes(case: &dyn Case) -> String {
     text
 }
 
+/// Sizes that a level runs, each once.
+fn sizes_of(case: &dyn Case, level: Level) -> BTreeSet<usize> {
+    case.runs(level).into_iter().map(|key| key.n).collect()
+}
+
+/// A remark on a case whose smallest size another level than `quick` has.
+fn small_elsewhere(case: &dyn Case) -> &'static str {
+    let least = |level| sizes_of(case, level).first().copied();
+    let elsewhere = Level::ALL.into_iter().any(|level| least(level) < least(Level::Quick));
+    if elsewhere { " (quick goes without the smallest)" } else { "" }
+}
+
 /// Everything that can be known of a case without running it.
 fn whole(case: &dyn Case) -> String {
     let scene = case.scene(Preset::Default, "", case.default_size());
@@ -64,7 +76,7 @@ fn whole(case: &dyn Case) -> String {
     text += &wrapped(case.about(), 0);
     text += &wrapped(&format!("Source: {}", case.source()), 0);
     text += "\n";
-    text += &wrapped(&format!("Sizes: {}", sizes(case)), 0);
+    text += &wrapped(&format!("Sizes: {}{}", sizes(case), small_elsewhere(case)), 0);
     let runs = Level::ALL.map(|level| format!("{} {}", level.name(), case.runs(level).len()));
     text += &format!("Runs of the levels: {}\n", runs.join(", "));
     let named = named_variants(case);
@@ -230,6 +242,15 @@ mod tests {
         assert_eq!(wrapped("µ", 2), "  µ\n");
         let whole = wrapped(&format!("{} a\u{a0}b", "x".repeat(WIDTH - 2)), 0);
         assert!(whole.ends_with("\na b\n"), "{whole}");
+    }
+
+    /// Who takes `quick` for the smallest sizes is told where it is not.
+    #[test]
+    fn levels_without_the_smallest_size_say_so() {
+        let said = |id| whole(find(id).expect("a case")).replace('\n', " ");
+        let sizes = "quick: 200; standard, full: 100 200 400 (quick goes without the smallest)";
+        assert!(said("einfeldt-123").contains(sizes), "{}", said("einfeldt-123"));
+        assert!(!said("noh").contains("the smallest"));
     }
 
     /// One goal is no goals.

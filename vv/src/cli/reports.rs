@@ -4,6 +4,9 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::time::Duration;
 
+use clap::ValueEnum;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+
 use super::progress::{Outlook, Progress};
 use super::run::find_all;
 use super::sizes::expect;
@@ -81,7 +84,7 @@ fn expected(cases: &[&'static dyn Case], level: Level, forecast: &Forecast) -> S
     }
     if unknown > 0 {
         text += &match usual(level) {
-            minutes if all && unknown == runs => format!(", about {minutes} where it was measured"),
+            time if all && unknown == runs => format!(", {time} where it was measured"),
             _ => format!("; no record tells the time of {unknown}"),
         };
     }
@@ -105,13 +108,28 @@ fn expected(cases: &[&'static dyn Case], level: Level, forecast: &Forecast) -> S
     }
 }
 
-/// What a level took with all cases on two cores, one of them busy.
+/// What a level took with all cases on two cores.
 fn usual(level: Level) -> &'static str {
     match level {
         Level::Quick => "1 to 2 minutes",
-        Level::Standard => "5 to 6 minutes",
-        Level::Full => "35 minutes",
+        Level::Standard => "about 8 minutes",
+        Level::Full => "about 35 minutes",
     }
+}
+
+/// The levels on the command line, each with what it runs and how long that takes.
+pub(super) fn levels() -> impl TypedValueParser<Value = Level> {
+    let values = Level::ALL.map(|level| {
+        let what = match level {
+            Level::Quick => "Few sizes of every case, not always its smallest",
+            Level::Standard => "Most sizes that claims need",
+            Level::Full => {
+                "Every size that a claim needs, the long rod at 9 cells and its variants too"
+            }
+        };
+        PossibleValue::new(level.name()).help(format!("{what}: {}", usual(level)))
+    });
+    PossibleValuesParser::new(values).try_map(|name| Level::from_str(&name, false))
 }
 
 /// Redraws the report, or compares it with what a redraw would give.
@@ -255,7 +273,6 @@ pub(super) fn reference(args: &ReferenceArgs) -> Result<u8, Failure> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use clap::ValueEnum;
 
     /// What is said before a run: how much, how long, and what another level has.
     #[test]
@@ -299,14 +316,21 @@ mod tests {
         );
     }
 
-    /// The help says the same times.
+    /// Help and README say the same times, of every level.
     #[test]
     fn levels_have_one_time() {
-        for level in Level::ALL {
-            let value = level.to_possible_value().expect("a level");
-            let help = value.get_help().map(ToString::to_string).unwrap_or_default();
-            assert!(help.contains(usual(level)), "{help}");
+        let readme = concat!(env!("CARGO_MANIFEST_DIR"), "/../README.md");
+        let readme = std::fs::read_to_string(readme).expect("README.md");
+        let parser = levels();
+        let values: Vec<PossibleValue> = parser.possible_values().expect("levels").collect();
+        assert_eq!(values.len(), Level::ALL.len());
+        for (level, value) in Level::ALL.into_iter().zip(values) {
             assert_eq!(value.get_name(), level.name());
+            let help = value.get_help().map(ToString::to_string).unwrap_or_default();
+            assert!(help.ends_with(&format!(": {}", usual(level))), "{help}");
+            let row = format!("| `{}`", level.name());
+            let row = readme.lines().find(|line| line.starts_with(&row)).expect("its row");
+            assert!(row.ends_with(&format!("| {} |", usual(level))), "{row}");
         }
     }
 }
