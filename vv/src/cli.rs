@@ -8,7 +8,6 @@ use clap::{CommandFactory, Parser, Subcommand, ValueEnum};
 use whipple_solver::method::{Density, Preset};
 
 use crate::cases::Level;
-use crate::report::Pictures;
 use numbers::{SIZES, THREADS, whole};
 use times::{SimulatedTime, wall_time};
 
@@ -73,7 +72,7 @@ enum Command {
     Run(RunArgs),
     /// Run cases, judge their claims and write the report
     Vv(VvArgs),
-    /// Redraw the report from its records, without running anything
+    /// Redraw the report from its records, over the one that is there, without running anything
     Report(ReportArgs),
     /// Measure speed: cost of the density schemes, and the long rod in three dimensions
     Bench(BenchArgs),
@@ -188,11 +187,10 @@ struct VvArgs {
     /// How much to run
     #[arg(long, value_parser = reports::levels(), default_value = Level::Standard.name())]
     level: Level,
-    /// Folder of the report
+    /// Folder of the report: one that is there is drawn anew, with the records of its other runs
     #[arg(long, value_name = "DIR", default_value = "reports")]
     out: PathBuf,
-    /// Put the pictures into index.html, to send it around as one file; else it shows those in
-    /// figures/
+    /// Also write single-file.html in that folder: the page with its pictures within, to send around
     #[arg(long)]
     single_file: bool,
 }
@@ -205,15 +203,10 @@ struct ReportArgs {
     /// Write nothing: compare with the report that is there, exit 1 if it differs
     #[arg(long)]
     check: bool,
-    /// Put the pictures into index.html, to send it around as one file; else it shows those in
-    /// figures/
+    /// Write (or check) single-file.html in that folder instead, and nothing else: the page with its
+    /// pictures within, to send around
     #[arg(long)]
     single_file: bool,
-}
-
-/// Where the page has its pictures.
-fn pictures(single_file: bool) -> Pictures {
-    if single_file { Pictures::Within } else { Pictures::Beside }
 }
 
 #[derive(Debug, clap::Args)]

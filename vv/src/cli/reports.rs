@@ -1,7 +1,7 @@
 //! `whipple vv`, `whipple report` and `whipple reference`.
 
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use clap::ValueEnum;
@@ -10,7 +10,7 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use super::progress::{Outlook, Progress};
 use super::run::find_all;
 use super::sizes::expect;
-use super::{CLAIM_FAILED, Failure, ReferenceArgs, ReportArgs, VvArgs, pictures, print, say};
+use super::{CLAIM_FAILED, Failure, ReferenceArgs, ReportArgs, VvArgs, print, say};
 use crate::cases::{ALL, Case, Level, woodward_colella};
 use crate::claims::{Status, Verdict, Weight};
 use crate::document;
@@ -19,9 +19,12 @@ use crate::memory::Keeps;
 use crate::pictures::read_pictures;
 use crate::plots;
 use crate::record::{Outcome, Records};
-use crate::report::{self, Drawing, Pictures};
+use crate::report::{self, Drawing, Pictures, Report};
 use crate::suite::{Forecast, covers, forecast, records_folder, run_suite, scene_of, verdicts};
 use crate::words::counted;
+
+/// The page that needs nothing beside it, which is no part of the report's folder.
+const SINGLE_FILE: &str = "single-file.html";
 
 /// Files that are named of those that differ.
 const NAMED: usize = 5;
@@ -56,9 +59,13 @@ pub(super) fn vv(args: &VvArgs) -> Result<u8, Failure> {
     });
     progress.done();
     ended?;
-    let verdicts = draw(&args.out, pictures(args.single_file))?;
+    let made = made(&args.out)?;
+    let mut pages = vec![draw(&made, &args.out, false)?];
+    if args.single_file {
+        pages.push(draw(&made, &args.out, true)?);
+    }
     let ran = |v: &&Verdict| cases.iter().any(|c| c.id() == v.claim.case);
-    conclude(verdicts.iter().filter(ran), &args.out)
+    conclude(made.verdicts.iter().filter(ran), &pages)
 }
 
 /// What is about to run, how long it takes, and what is left to other levels.
@@ -134,27 +141,26 @@ pub(super) fn levels() -> impl TypedValueParser<Value = Level> {
 
 /// Redraws the report, or compares it with what a redraw would give.
 pub(super) fn report(args: &ReportArgs) -> Result<u8, Failure> {
-    let pictures = pictures(args.single_file);
+    let made = made(&args.out)?;
     if args.check {
-        return check(&args.out, pictures);
+        return check(&made, &args.out, args.single_file);
     }
-    let verdicts = draw(&args.out, pictures)?;
-    conclude(verdicts.iter(), &args.out)
+    let page = draw(&made, &args.out, args.single_file)?;
+    conclude(made.verdicts.iter(), &[page])
 }
 
-/// Compares the report with a fresh one.
-fn check(folder: &Path, pictures: Pictures) -> Result<u8, Failure> {
+/// Compares the report of a folder with a fresh one.
+fn check(made: &Made, folder: &Path, single_file: bool) -> Result<u8, Failure> {
     let fresh =
         tempfile::tempdir().map_err(|e| Failure::usage(format!("no temporary folder: {e}")))?;
-    let (page, figures, verdicts) = made(folder)?;
-    report::write(&page, &figures, fresh.path(), pictures).map_err(Failure::usage)?;
+    draw(made, fresh.path(), single_file)?;
     let mut differing = Vec::new();
     compare(fresh.path(), folder, Path::new(""), &mut differing)?;
     if differing.is_empty() {
         print("the report is what its records give\n")?;
         return Ok(0);
     }
-    let stale = verdicts.iter().filter(|verdict| verdict.stale).count();
+    let stale = made.verdicts.iter().filter(|verdict| verdict.stale).count();
     Err(Failure { code: CLAIM_FAILED, message: difference(stale, differing) })
 }
 
@@ -196,7 +202,12 @@ fn compare(
     Ok(())
 }
 
-type Made = (report::Report, BTreeMap<String, Drawing>, Vec<Verdict>);
+/// A report before it is written.
+struct Made {
+    report: Report,
+    drawings: BTreeMap<String, Drawing>,
+    verdicts: Vec<Verdict>,
+}
 
 /// The report of a folder of records, in memory.
 fn made(folder: &Path) -> Result<Made, Failure> {
@@ -212,22 +223,32 @@ fn made(folder: &Path) -> Result<Made, Failure> {
     // Pictures are not drawn again: they must be those of the records.
     let mut drawings = read_pictures(&there, &records).map_err(Failure::usage)?;
     let verdicts = verdicts(&records);
-    let (page, figures) = document::compose(&records, &verdicts);
+    let (report, figures) = document::compose(&records, &verdicts);
     for figure in &figures {
         let svg = plots::render_svg(figure).map_err(Failure::usage)?;
         drawings.insert(figure.id.clone(), Drawing::Chart(svg));
     }
-    Ok((page, drawings, verdicts))
+    Ok(Made { report, drawings, verdicts })
 }
 
-fn draw(folder: &Path, pictures: Pictures) -> Result<Vec<Verdict>, Failure> {
-    let (page, figures, verdicts) = made(folder)?;
-    report::write(&page, &figures, folder, pictures).map_err(Failure::usage)?;
-    Ok(verdicts)
+/// Writes a report to a folder, or only its page with the pictures within; returns the page.
+fn draw(made: &Made, folder: &Path, single_file: bool) -> Result<PathBuf, Failure> {
+    let Made { report, drawings, .. } = made;
+    if single_file {
+        let path = folder.join(SINGLE_FILE);
+        let page = report::html(report, drawings, Pictures::Within).map_err(Failure::usage)?;
+        write_atomic(&path, page.as_bytes())?;
+        return Ok(path);
+    }
+    report::write(report, drawings, folder).map_err(Failure::usage)?;
+    Ok(folder.join(report::INDEX))
 }
 
 /// Prints the failed claims and the counts; fails if a required claim did.
-fn conclude<'a>(verdicts: impl Iterator<Item = &'a Verdict>, out: &Path) -> Result<u8, Failure> {
+fn conclude<'a>(
+    verdicts: impl Iterator<Item = &'a Verdict>,
+    pages: &[PathBuf],
+) -> Result<u8, Failure> {
     let (mut passed, mut failed, mut missing) = (0, 0, 0);
     let mut text = String::new();
     for verdict in verdicts.filter(|v| v.claim.weight == Weight::Must) {
@@ -244,7 +265,9 @@ fn conclude<'a>(verdicts: impl Iterator<Item = &'a Verdict>, out: &Path) -> Resu
     }
     text +=
         &format!("required claims: {passed} passed, {failed} failed, {missing} without a record\n");
-    text += &format!("report: {}\n", out.join("index.html").display());
+    for page in pages {
+        text += &format!("report: {}\n", page.display());
+    }
     print(&text)?;
     Ok(if failed > 0 { CLAIM_FAILED } else { 0 })
 }

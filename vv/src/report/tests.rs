@@ -181,12 +181,12 @@ fn a_new_report_replaces_the_old_and_nothing_else() {
     let dir = folder.path().join("new/report");
     let mut more = figures();
     more.insert("old".into(), SVG.into());
-    write(&report(), &more, &dir, Pictures::Beside).unwrap();
+    write(&report(), &more, &dir).unwrap();
     assert!(dir.join("figures/old.png").exists());
     fs::write(dir.join("figures/mine.svg"), "mine").unwrap();
     // A run that was killed left something behind.
     fs::create_dir_all(dir.join(".report-partial/figures")).unwrap();
-    write(&report(), &figures(), &dir, Pictures::Beside).unwrap();
+    write(&report(), &figures(), &dir).unwrap();
     assert!(!dir.join("figures/old.svg").exists() && !dir.join("figures/old.png").exists());
     assert!(!dir.join(".report-partial").exists());
     for file in
@@ -206,7 +206,7 @@ fn pictures_are_in_the_page_and_beside_it() {
     let (light, dark) = (b"\x89PNG, light".to_vec(), b"\x89PNG, dark".to_vec());
     let drawing = Drawing::Picture { light: light.clone(), dark: dark.clone() };
     drawings.insert("rod".into(), drawing);
-    write(&shown, &drawings, folder.path(), Pictures::Beside).unwrap();
+    write(&shown, &drawings, folder.path()).unwrap();
     assert_eq!(fs::read(folder.path().join("figures/rod.png")).unwrap(), light);
     assert_eq!(fs::read(folder.path().join("figures/rod-dark.png")).unwrap(), dark);
     let page = fs::read_to_string(folder.path().join("index.html")).unwrap();
@@ -219,7 +219,7 @@ fn pictures_are_in_the_page_and_beside_it() {
     assert!(page.contains("<b>Figure 2</b>"));
     assert!(markdown(&shown).contains("![A \"rod\"](figures/rod.png)\n\n**Figure 2** – A"));
     // One that is gone from the report goes from the folder.
-    write(&report(), &figures(), folder.path(), Pictures::Beside).unwrap();
+    write(&report(), &figures(), folder.path()).unwrap();
     assert!(!folder.path().join("figures/rod-dark.png").exists());
     assert!(matches!(
         html(&shown, &figures(), Pictures::Beside),
@@ -235,7 +235,7 @@ fn refusals_name_path_and_cause() {
     let file = folder.path().join("file");
     fs::write(&file, "").unwrap();
     for dir in [file.clone(), file.join("below")] {
-        let error = write(&report(), &figures(), &dir, Pictures::Beside).unwrap_err();
+        let error = write(&report(), &figures(), &dir).unwrap_err();
         assert!(matches!(&error, ReportError::Io { .. }) && error.source().is_some());
         assert!(error.to_string().contains(dir.to_str().unwrap()), "{error}");
     }
@@ -244,8 +244,7 @@ fn refusals_name_path_and_cause() {
 #[cfg(target_os = "linux")]
 #[test]
 fn a_read_only_file_system_refuses() {
-    let error =
-        write(&report(), &figures(), "/proc/whipple".as_ref(), Pictures::Beside).unwrap_err();
+    let error = write(&report(), &figures(), "/proc/whipple".as_ref()).unwrap_err();
     assert!(error.to_string().starts_with("cannot create the folder `/proc/whipple"), "{error}");
 }
 
@@ -253,10 +252,10 @@ fn a_read_only_file_system_refuses() {
 fn something_in_the_way_leaves_no_index() {
     let folder = tempfile::tempdir().unwrap();
     let dir = folder.path();
-    write(&report(), &figures(), dir, Pictures::Beside).unwrap();
+    write(&report(), &figures(), dir).unwrap();
     fs::remove_file(dir.join("tables/norms.csv")).unwrap();
     fs::create_dir_all(dir.join("tables/norms.csv/full")).unwrap();
-    let error = write(&report(), &figures(), dir, Pictures::Beside).unwrap_err();
+    let error = write(&report(), &figures(), dir).unwrap_err();
     assert!(error.to_string().contains("norms.csv"), "{error}");
     assert!(!dir.join("index.html").exists() && !dir.join(".report-partial").exists());
 }
@@ -264,9 +263,9 @@ fn something_in_the_way_leaves_no_index() {
 #[test]
 fn a_folder_that_cannot_be_staged_keeps_the_old_report() {
     let folder = tempfile::tempdir().unwrap();
-    write(&report(), &figures(), folder.path(), Pictures::Beside).unwrap();
+    write(&report(), &figures(), folder.path()).unwrap();
     let broken = [("noh".to_owned(), "no svg".into())].into();
-    let error = write(&report(), &broken, folder.path(), Pictures::Beside).unwrap_err();
+    let error = write(&report(), &broken, folder.path()).unwrap_err();
     assert!(matches!(error, ReportError::Picture { .. }));
     assert!(folder.path().join("index.html").exists());
 }

@@ -9,7 +9,8 @@ use std::fs::{self, File};
 use std::io::{self, ErrorKind, Write as _};
 use std::path::Path;
 
-const INDEX: &str = "index.html";
+/// The page of a report.
+pub const INDEX: &str = "index.html";
 /// Names of the files a report consists of: only these are ever removed.
 const MANIFEST: &str = ".report-files";
 /// Folder inside the target where a report is made before it takes the place of the old one.
@@ -31,9 +32,8 @@ pub fn write(
     report: &Report,
     figures: &BTreeMap<String, Drawing>,
     dir: &Path,
-    pictures: Pictures,
 ) -> Result<(), ReportError> {
-    let files = render(report, figures, pictures)?;
+    let files = render(report, figures)?;
     let stage = dir.join(STAGE);
     create(&stage)?;
     let written = fill(&stage, &files).and_then(|()| place(&stage, dir, &files));
@@ -45,10 +45,9 @@ pub fn write(
 fn render(
     report: &Report,
     figures: &BTreeMap<String, Drawing>,
-    pictures: Pictures,
 ) -> Result<BTreeMap<String, Vec<u8>>, ReportError> {
     let mut files = BTreeMap::new();
-    files.insert(INDEX.to_owned(), html(report, figures, pictures)?.into_bytes());
+    files.insert(INDEX.to_owned(), html(report, figures, Pictures::Beside)?.into_bytes());
     files.insert("report.md".to_owned(), markdown(report).into_bytes());
     for (id, drawing) in figures {
         match drawing {

@@ -150,6 +150,47 @@ fn verdicts_of_a_case() {
     assert!(none.iter().all(|v| v.status == Status::Missing), "no record, no verdict");
 }
 
+/// `--single-file` has a page of its own: of the report nothing is overwritten, and a redraw leaves it.
+#[test]
+fn single_file_is_beside_the_report() {
+    let (folder, _) = report();
+    let out = folder.path().join("r");
+    let light = b"light".as_slice();
+    let hash = blake3::hash(light).to_hex().to_string();
+    let path = out.join("records/heat-chain_default_n32.json");
+    let whole = std::fs::read_to_string(&path).expect("a record");
+    let mut record: serde_json::Value = serde_json::from_str(&whole).expect("JSON");
+    record["pictures"] = serde_json::json!([
+        { "id": "chain", "caption": "A hot chain.", "light": hash, "dark": hash }
+    ]);
+    std::fs::write(&path, record.to_string()).expect("a record");
+    std::fs::create_dir(out.join("records/pictures")).expect("a folder");
+    for name in ["chain.png", "chain-dark.png"] {
+        std::fs::write(out.join("records/pictures").join(name), light).expect("a picture");
+    }
+    let report = |more: &[&str]| said(folder.path(), &[&["report", "--out", "r"], more].concat());
+    std::fs::write(out.join("index.html"), "mine").expect("a page");
+    let before = files(&out);
+    assert_eq!(report(&["--check", "--single-file"]).code, Some(1), "it is not there yet");
+    let drawn = report(&["--single-file"]);
+    assert_eq!(drawn.code, Some(0), "{}", drawn.err);
+    assert!(drawn.out.ends_with("report: r/single-file.html\n"), "{}", drawn.out);
+    assert_eq!(report(&["--check", "--single-file"]).code, Some(0));
+    let mut after = files(&out);
+    let page = after.remove("single-file.html").expect("the page");
+    assert!(after == before, "nothing else is written");
+    let page = String::from_utf8(page).expect("text");
+    assert!(page.contains("data:image/png;base64,") && !page.contains("\"figures/"));
+    assert_eq!(report(&[]).code, Some(0));
+    assert_eq!(report(&["--check"]).code, Some(0), "it is no part of the report");
+    assert!(files(&out).get("single-file.html").is_some_and(|kept| kept == page.as_bytes()));
+    let vv = ["vv", "heat-chain", "--level", "quick", "--out", "v", "--single-file"];
+    let ran = said(folder.path(), &vv);
+    assert!(ran.out.ends_with("report: v/index.html\nreport: v/single-file.html\n"), "{}", ran.out);
+    let page = |name: &str| std::fs::read(folder.path().join("v").join(name)).expect("a page");
+    assert_eq!(page("index.html"), page("single-file.html"), "without pictures they are the same");
+}
+
 /// Pictures cannot be drawn again: they are kept as they are, shown, and refused when they are not those
 /// of the record.
 #[test]
@@ -190,13 +231,6 @@ fn pictures_are_kept_and_checked() {
     let [page, text] = ["index.html", "report.md"].map(read);
     let [page, text] = [page, text].map(|bytes| String::from_utf8(bytes).expect("text"));
     assert!(page.contains("A hot chain.") && page.contains("src=\"figures/chain.png\""));
-    assert_eq!(report(&["--single-file"]).code, Some(0));
-    let whole = String::from_utf8(read("index.html")).expect("text");
-    assert!(whole.contains("data:image/png;base64,") && !whole.contains("\"figures/"));
-    assert_eq!(report(&["--check", "--single-file"]).code, Some(0));
-    let other = report(&["--check"]);
-    assert_eq!((other.code, other.err.contains("index.html")), (Some(1), true));
-    assert_eq!(report(&[]).code, Some(0));
     assert!(text.contains("![A hot chain.](figures/chain.png)"));
     std::fs::write(folder.path().join("r/figures/chain.png"), "other").expect("a picture");
     let check = report(&["--check"]);
