@@ -71,6 +71,21 @@ pub fn apply(scene: AnyScene, overrides: &[String]) -> Result<AnyScene, Override
     Ok(scene)
 }
 
+/// Those of some overrides that give a value which the scene has already, by itself or by one before.
+#[must_use]
+pub fn redundant<'a>(scene: &AnyScene, overrides: &'a [String]) -> Vec<&'a String> {
+    let mut scene = scene.clone();
+    let changes_nothing = |text: &&String| match apply_one(&scene, text) {
+        Ok(changed) => {
+            let same = changed == scene;
+            scene = changed;
+            same
+        }
+        Err(_) => false,
+    };
+    overrides.iter().filter(changes_nothing).collect()
+}
+
 /// The key of an override, without `method.` before it.
 fn key(text: &str) -> &str {
     let key = text.split('=').next().unwrap_or_default().trim();
@@ -244,6 +259,22 @@ mod tests {
         assert!(refused.ends_with("a table with its value, such as { steps = 20 }"), "{refused}");
         let refused = changed("heat_coef=1").expect_err("must be refused").to_string();
         assert!(refused.contains("heat_coeff"), "{refused}");
+    }
+
+    /// Every key of a scene with the value that it has changes nothing; with another it does.
+    #[test]
+    fn values_that_a_scene_has_are_redundant() {
+        for (case, n) in [("noh", 10), ("long-rod", 5)] {
+            let scene = crate::cases::find(case).expect("a case").scene(Preset::Default, "", n);
+            let keys = crate::keys::of_method([&scene, &scene]);
+            let own = keys.iter().map(|key| format!("{}={}", key.name, key.values[0]));
+            let own: Vec<String> = own.collect();
+            assert!(own.len() > 8, "{own:?}");
+            assert_eq!(redundant(&scene, &own).len(), own.len(), "{own:?}");
+            let sets = ["cfl=0.123", "stop_time=0.5", "method.cfl=0.123", "nothing=1"];
+            let sets = sets.map(str::to_owned);
+            assert_eq!(redundant(&scene, &sets), ["method.cfl=0.123"]);
+        }
     }
 
     #[test]

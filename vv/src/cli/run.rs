@@ -177,11 +177,14 @@ fn note_changes(case: &dyn Case, scene: &AnyScene, mut plain: AnyScene) {
     }
 }
 
-/// Mentions the keys of `--set` that this scene has no use for.
-fn note_idle(sets: &[String], scene: &AnyScene) {
+/// Mentions the `--set` that change nothing: those that are redundant, and keys that this scene has no use
+/// for.
+fn note_idle(sets: &[String], redundant: &[&String], scene: &AnyScene) {
     for set in sets {
         let key = set.split('=').next().unwrap_or_default().trim();
-        if let Some(why) = keys::idle(key, scene) {
+        if redundant.contains(&set) {
+            say(&format!("note: `--set {set}` changes nothing: the scene has this value already"));
+        } else if let Some(why) = keys::idle(key, scene) {
             say(&format!("note: `--set {set}` changes nothing in this run: {why}"));
         }
     }
@@ -240,14 +243,21 @@ fn request<'a>(case: &'a dyn Case, args: &RunArgs) -> Result<(Request, Bounds<'a
     let plain = scene_of(case, &key);
     let units = plain.as_ref().map_or(Units::None, AnyScene::units);
     let stop = args.stop.map(|time| time.in_units("--stop", units)).transpose()?;
+    let redundant = plain.as_ref().map(|plain| overrides::redundant(plain, &args.sets));
+    let redundant = redundant.unwrap_or_default();
     let scene = match plain {
         Some(plain) => Some(changed(case, &mut key, (plain, stop), args)?),
         None => None,
     };
-    let mut changes: Vec<String> = stop.iter().map(|time| format!("--stop {time}")).collect();
-    changes.extend(args.sets.iter().map(|set| format!("--set {set}")));
-    let bounds = Bounds::new(case, own, &changes);
-    let command = [vec![command_of(&key)], changes].concat().join(" ");
+    if let Some(scene) = &scene {
+        note_idle(&args.sets, &redundant, scene);
+    }
+    let stop = stop.iter().map(|time| format!("--stop {time}"));
+    let text = |set: &String| format!("--set {set}");
+    let sets = args.sets.iter().filter(|set| !redundant.contains(set)).map(text);
+    let bounds = Bounds::new(case, own, &stop.clone().chain(sets).collect::<Vec<String>>());
+    let command = [command_of(&key)].into_iter().chain(stop).chain(args.sets.iter().map(text));
+    let command = command.collect::<Vec<String>>().join(" ");
     Ok((Request { key, scene, threads: args.threads, command }, bounds))
 }
 
@@ -277,7 +287,6 @@ fn changed(
     {
         *density = scene.density();
     }
-    note_idle(&args.sets, &scene);
     note_changes(case, &scene, plain);
     Ok(scene)
 }

@@ -91,6 +91,25 @@ fn overrides_that_change_nothing_are_told() {
     );
 }
 
+/// A value that the scene has already is told in a line, and what is wanted of the run is judged.
+#[test]
+fn overrides_with_the_value_of_the_scene_are_told() {
+    let run = |sets: &[&str]| said(folder().path(), &[&["run", "noh", "--n", "20"], sets].concat());
+    let plain = run(&["--density", "kernel", "--set", "density=kernel"]);
+    assert_eq!(plain.code, Some(0), "{}", plain.err);
+    assert_eq!(
+        plain.err,
+        "note: `--set density=kernel` changes nothing: the scene has this value already\n"
+    );
+    assert!(!plain.out.contains("changed by"), "{}", plain.out);
+    let two = run(&["--set", "heating=pair", "--set", "cfl=0.123"]);
+    assert_eq!(
+        two.err,
+        "note: `--set heating=pair` changes nothing: the scene has this value already\n"
+    );
+    assert!(two.out.contains(", changed by --set cfl=0.123\n"), "{}", two.out);
+}
+
 /// The record says which density ran, whichever option chose it, and a case named twice runs once.
 #[test]
 fn records_say_what_ran() {
