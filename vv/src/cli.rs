@@ -54,7 +54,7 @@ Exit codes:
   1    a required claim failed (vv, report), or the report differs (report --check)
   2    wrong use or input
   3    numerical failure
-  130  interrupted";
+  130  interrupted, or --max-wall is over (run)";
 
 const RUN_EXIT_CODES: &str = "\
 Exit codes:

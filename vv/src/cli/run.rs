@@ -11,7 +11,7 @@ use super::progress::{Outlook, Progress};
 use super::results::{Bounds, json, text, write_outputs};
 use super::resume::{refusal, resume};
 use super::sizes::{expect, no_size};
-use super::{Failure, INTERRUPTED, NUMERICAL_FAILURE, RunArgs, print, say};
+use super::{Failure, INTERRUPTED, NUMERICAL_FAILURE, RunArgs, as_called, print, program, say};
 use crate::cases::{self, Case};
 use crate::files::ensure_writable_dir;
 use crate::keys;
@@ -47,10 +47,16 @@ pub(super) fn run(args: &RunArgs) -> Result<u8, Failure> {
     progress.done();
     let done = match done {
         Err(RunError::Interrupted { checkpoint }) => {
-            let why = if progress.is_late() { "--max-wall is over" } else { "interrupted" };
+            let late = progress.is_late();
+            let why = if late { "--max-wall is over" } else { "interrupted" };
             let space = matches!(scene, Some(AnyScene::Space(_)));
             let next = space.then(|| how_to_go_on(args, &command, checkpoint.as_deref()));
             let message = format!("{why}{}", next.unwrap_or_default());
+            // A stop that was asked for beforehand is no error, if the run can go on from it.
+            if late && checkpoint.is_some() {
+                say(&as_called(&format!("note: {message}"), &program()));
+                return Ok(INTERRUPTED);
+            }
             return Err(Failure { code: INTERRUPTED, message });
         }
         Err(RunError::Resume(error)) => {
@@ -156,7 +162,9 @@ fn how_to_go_on(args: &RunArgs, command: &str, checkpoint: Option<&Path>) -> Str
         again += &format!(" --checkpoint {every}");
     }
     let [out, checkpoint] = [out, checkpoint].map(|path| path.display());
-    format!("; continue with\n  {again} --out {out} --resume {checkpoint}")
+    format!(
+        "; the state is kept in {checkpoint}; continue with\n  {again} --out {out} --resume {checkpoint}"
+    )
 }
 
 /// Says what is compared with what where a run ends at another time, or is of another problem.

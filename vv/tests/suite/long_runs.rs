@@ -180,8 +180,10 @@ fn time_on_the_clock_ends_a_run_that_goes_on() {
         assert_well(&run(&["--out", "whole"]));
         let stopped = run(&["--vtu", "1us", "--max-wall", "1us", "--out", "stopped"]);
         assert_eq!((stopped.code, stopped.out.as_str()), (Some(130), ""));
-        let errors = errors(&stopped);
-        assert!(errors.starts_with("error: --max-wall is over; continue with\n"), "{errors}");
+        assert!(!stopped.err.contains("error:"), "it was planned: {}", stopped.err);
+        let kept = "note: --max-wall is over; the state is kept in stopped/checkpoint-000001.whp; \
+                    continue with\n  whipple run ";
+        assert!(stopped.err.contains(kept), "{}", stopped.err);
         assert!(!at.join("stopped/record.json").exists(), "no record of half a run");
         assert!(next_command(&stopped).contains(&"--vtu".to_owned()), "{}", stopped.err);
         go_on(at, &stopped);
@@ -301,7 +303,8 @@ fn interrupt_leaves_a_run_that_goes_on() {
     assert!(sent.success());
     let stopped = Said::from(child.wait_with_output().expect("it ends"));
     assert_eq!(stopped.code, Some(130), "{}", stopped.err);
-    assert!(errors(&stopped).starts_with("error: interrupted; continue with"), "{}", stopped.err);
+    let kept = "error: interrupted; the state is kept in out/checkpoint-000001.whp; continue with";
+    assert!(errors(&stopped).starts_with(kept), "{}", stopped.err);
     let checkpoint = at.join("out/checkpoint-000001.whp");
     let time = Reader::open_any(&checkpoint).expect("a checkpoint").meta().time;
     assert!(0.0 < time && time < 100.0, "{time}");
