@@ -69,13 +69,9 @@ impl<F: Lanes> Symmetric<F> {
 /// what is stiffest moves planes of nodes against each other (decision 0020).
 const SHARED: f64 = 0.75;
 
-/// Longest step over the time in which the damping alone stops a motion, before the safety: it turns a motion round by
-/// half of it at most, where leapfrog would bear the whole (in sample: decision 0020).
-const TURNED: f64 = 1.5;
-
-/// Inverse of a time step at which `K dt^2/4 + 3/4 D dt/2` has no eigenvalue above one and `D dt` none above
-/// [`TURNED`] in any lane that is asked for: what leapfrog with the damping `D` of the last velocities bears in a
-/// lattice of such cells, whatever the axes of the two. Nothing if it is surely below what others ask for.
+/// Inverse of a time step at which neither `K dt^2/4 + 3/4 D dt/2` nor `D dt/2` has an eigenvalue above one in any lane
+/// that is asked for: what leapfrog with the damping `D` of the last velocities bears in a lattice of such cells,
+/// whatever the axes of the two. Nothing if it is surely below what others ask for.
 #[inline(always)]
 pub(super) fn rate<F: Lanes>(
     (stiffness, damping): (&Symmetric<F>, &Symmetric<F>),
@@ -83,8 +79,8 @@ pub(super) fn rate<F: Lanes>(
 ) -> f64 {
     // As if both were largest along the same axis; then they are less than one by `slack`, and a step
     // longer by its root is still safe, since no term grows by more than the square.
-    let most = damping.largest();
-    let (half, alone) = (most * (0.5 * SHARED), most * (1.0 / TURNED));
+    let alone = damping.largest() * 0.5;
+    let half = alone * SHARED;
     let rate = (half + (half * half + stiffness.largest()).sqrt()) * 0.5;
     if rate.max(alone).gt(F::splat(others)) & lanes == 0 {
         return 0.0;
@@ -128,16 +124,16 @@ mod tests {
     fn stiffness_and_damping_along_one_axis_add_up_and_along_two_do_not() {
         let [x, y] = [matrix(&[[2.0, 0.0, 0.0]]), matrix(&[[0.0, 2.0, 0.0]])];
         let both = |a: &Symmetric<F8>, b: &Symmetric<F8>| rate((a, b), (Mask::MAX, 0.0));
-        // The damping alone: 4 / 1.5.
-        assert!((both(&x, &x) - 8.0 / 3.0).abs() < 1e-14);
+        // omega^2 = 4, three quarters of the damping 4: 1/dt = (1.5 + sqrt(6.25))/2, which the damping alone meets too.
+        assert!((both(&x, &x) - 2.0).abs() < 1e-14);
         let stiff = x.times(F8::splat(4.0));
         // omega^2 = 16, three quarters of the damping 4: 1/dt = (1.5 + sqrt(18.25))/2.
         let along = 0.75 + 0.5 * 18.25f64.sqrt();
         assert!((both(&stiff, &x) - along).abs() < 1e-14);
         let apart = both(&stiff, &y);
-        assert!((8.0 / 3.0..along).contains(&apart), "{apart}");
+        assert!((2.0..along).contains(&apart), "{apart}");
         assert!((both(&x, &Symmetric::zero()) - 1.0).abs() < 1e-14);
-        assert!((both(&Symmetric::zero(), &x) - 8.0 / 3.0).abs() < 1e-14);
+        assert!((both(&Symmetric::zero(), &x) - 2.0).abs() < 1e-14);
         assert!(both(&Symmetric::zero(), &Symmetric::zero()).abs() < 1e-100);
     }
 }

@@ -695,7 +695,7 @@ impl Plain {
         self.elements[e].bonds = bonds;
         let mass = 0.5 * solid.material.density * solid.volume;
         let missing = self.elements[e].beyond.iter().filter(|b| b.is_none()).count();
-        let corner = if missing > 4 { 3.0 * most } else { most };
+        let corner = if missing > 4 { 4.0 * most } else { most };
         let mut damping = scaled(&plus(&ways, corner, &all), 1.0 / mass);
         let weights = self.hourglass_weights(&now, body);
         let whole = self.drag(e);
@@ -708,8 +708,8 @@ impl Plain {
                 forces[slot] = sub(forces[slot], times(rate, drag * weights[slot]));
             }
         }
-        let alone = largest(&damping) / 1.5;
-        let half = 0.375 * largest(&damping);
+        let alone = 0.5 * largest(&damping);
+        let half = 0.75 * alone;
         let rate = 0.5 * (half + (half * half + largest(&squares)).sqrt());
         let slack = plus(&scaled(&squares, 0.25 / (rate * rate)), 0.375 / rate, &damping);
         self.rate = self.rate.max(rate * largest(&slack).sqrt()).max(alone);
