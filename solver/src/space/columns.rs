@@ -133,7 +133,7 @@ columns! {
 }
 
 columns! {
-    /// What follows from the state within a step.
+    /// What follows from the state within a step, and what is kept for the next.
     Derived, DerivedSlices, 8 {
         /// Pressure `P`.
         pressure,

@@ -32,6 +32,10 @@ pub(super) const CROSSING: f64 = 1.0 / 3.0;
 /// Smallest part of an allowed step that is taken after a longer one.
 const LEAST_PART: f64 = 0.5;
 
+/// Smallest drift over the next at which the change of volumes in it is more than round-off: after a shorter one, to land
+/// on a time, pressures lag for a step.
+const SHORT: f64 = 1e-6;
+
 /// Smallest time step over the first one.
 const COLLAPSED: f64 = 1e-6;
 
@@ -443,8 +447,11 @@ impl Simulation {
     /// How the step ends.
     fn end(&self) -> Stage {
         // The kick is the mean of two drifts; the first step has a drift of its own length before it.
-        let before = 2.0 * self.kick - self.dt;
-        let before = if before > 0.0 { before } else { self.dt };
+        let before = match 2.0 * self.kick - self.dt {
+            _ if self.counters.steps == 0 => self.dt,
+            before if before > SHORT * self.dt => before,
+            _ => 0.0,
+        };
         let lengths = Lengths { before, kick: self.kick, drift: self.dt };
         match self.method.density {
             Density::Kernel => Stage::Moved(lengths),

@@ -94,7 +94,7 @@ pub enum Stage {
 /// Lengths of the parts of a step.
 #[derive(Debug, Clone, Copy)]
 pub struct Lengths {
-    /// Of the drift before it.
+    /// Of the drift before it, if that says what velocities did to volumes, or zero.
     pub before: f64,
     /// Of its kick.
     pub kick: f64,
@@ -240,9 +240,12 @@ impl<F: Lanes> Eight<'_, F> {
         // The drift is over the velocity after the kick, and so is what it does to volumes: with the mean velocity,
         // pressures would lag behind the positions and feed the fastest waves. What the velocity before the kick does to
         // them is what the drift before has done.
-        let per_before = if before > 0.0 { 1.0 / before } else { 0.0 };
         let volume = F::load(sums.volume, at);
-        let ahead = volume_rate - (volume - F::load(derived.volume, at)) * per_before;
+        let ahead = if before > 0.0 {
+            volume_rate - (volume - F::load(derived.volume, at)) * (1.0 / before)
+        } else {
+            F::zero()
+        };
         volume.store(derived.volume, at);
         let grip = F::load(derived.grip, at);
         let per_mass = F::splat(1.0) / self.mass;

@@ -55,6 +55,9 @@ impl<F: Lanes> Seen<'_, F> {
     }
 }
 
+/// Least square of a length, whose inverse bears factors.
+const LEAST_SQUARE: f64 = 1e-200;
+
 /// Viscosity of the bonds of a cell.
 struct Damping<F> {
     /// Of each, where it acts.
@@ -73,8 +76,8 @@ impl<F: Lanes> Damping<F> {
     /// of a cell, and a bond takes from either what it takes from both. The centroid is damped by the bonds that act,
     /// `sum nu n n^T`; a corner, which has a bond in each of its cells, at most by all eight with the largest `nu`
     /// that acts. Corners on edges of a body are as much lighter as they have fewer bonds, which then point one way:
-    /// three times that, and a third more so that they are turned round by half of their motion at most (in sample,
-    /// decision 0020).
+    /// three times that, and a third more so that they are turned round by half of their motion at most, with the safety of
+    /// 0.9 (in sample, decision 0020).
     #[inline(always)]
     fn rates<const MAPPED: bool>(
         &self,
@@ -113,7 +116,7 @@ impl Group {
         let mut damping = Damping::none();
         for slot in 0..8 {
             let (r, w) = seen.bond(slot);
-            let square = dot(&r, &r).max(F::splat(f64::MIN_POSITIVE));
+            let square = dot(&r, &r).max(F::splat(LEAST_SQUARE));
             let near = square.lt(cells.reach_squared(slot)) & self.live;
             let approach = (-dot(&r, &w)).max(F::zero()).keep(near);
             let inverse = F::splat(1.0) / square;
@@ -158,7 +161,7 @@ impl Group {
         for slot in 0..8 {
             let (r, w) = seen.bond(slot);
             // The centroid of a dead element may lie on a corner.
-            let inverse = F::splat(1.0) / dot(&r, &r).max(F::splat(f64::MIN_POSITIVE));
+            let inverse = F::splat(1.0) / dot(&r, &r).max(F::splat(LEAST_SQUARE));
             // Jumps times the separation: of the bond, of the one before and of the one beyond.
             let own = -dot(&r, &w);
             let before = dot(&r, &sub(&seen.v[7 - slot], &seen.v[CENTRE]));
