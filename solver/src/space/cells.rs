@@ -235,16 +235,16 @@ impl Shape {
         let size = |face: [f64; 3]| 0.5 * face.iter().map(|x| x * x).sum::<f64>().sqrt();
         let largest = FACES.map(|face| size(self.face(face))).into_iter().fold(0.0, f64::max);
         out[EDGE] = volume / largest;
-        out[BOND_AREAS..].copy_from_slice(&bond_areas(volume));
+        out[BOND_AREAS..].copy_from_slice(&bond_areas(volume, volume.powf(2.0 / 3.0)));
         out
     }
 }
 
-/// Area of the bonds of a cell of this volume: for the limited viscosity, `3/4 a^2`, and `V_o^(2/3)` of
-/// its centroid for the printed one.
+/// Area of the bonds of a cell of this volume: for the limited viscosity 3/4 of a face, of unequal ones the largest
+/// (decision 0021), and `V_o^(2/3)` of its centroid for the printed one.
 #[must_use]
-pub fn bond_areas(volume: f64) -> [f64; 2] {
-    [0.75, 0.5f64.powf(2.0 / 3.0)].map(|share| share * volume.powf(2.0 / 3.0))
+pub fn bond_areas(volume: f64, face: f64) -> [f64; 2] {
+    [0.75 * face, 0.5f64.powf(2.0 / 3.0) * volume.powf(2.0 / 3.0)]
 }
 
 /// The undeformed cells of up to eight elements, and their body.
@@ -362,7 +362,7 @@ impl<'a, const MAPPED: bool> Cells<'a, MAPPED> {
             let [x, y, z] = [0, 1, 2].map(|d| self.corner::<F>(slot, d));
             x * x + y * y + z * z
         } else {
-            F::splat(self.body.length * self.body.length)
+            F::splat(self.body.diagonal * self.body.diagonal)
         }
     }
 

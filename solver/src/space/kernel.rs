@@ -23,10 +23,13 @@ impl Kernel {
         for i in mesh.real() {
             let (body, at) = mesh.place(i);
             let own = &mesh.bodies[body];
-            let x = own.lattice.position(at);
+            let lengths = own.ellipsoid.unwrap_or([own.length; 3]);
+            let per_step: [f64; 3] =
+                std::array::from_fn(|d| 0.5 * own.lattice.size[d] / lengths[d]);
             let zeta = |other: usize| {
-                let y = own.lattice.position(mesh.place(other).1);
-                (0..3).map(|d| (x[d] - y[d]).powi(2)).sum::<f64>().sqrt() / own.length
+                let to = mesh.place(other).1;
+                let square = |d: usize| (per_step[d] * f64::from(at[d] - to[d])).powi(2);
+                (0..3).map(square).sum::<f64>().sqrt()
             };
             let others = mesh.within_two_cells(body, at).filter(|&other| other != i);
             let sum: f64 = others.map(|other| kernel.value(zeta(other))).sum();

@@ -28,6 +28,9 @@ pub struct Run {
     pub cells: usize,
 }
 
+/// Longest edge of a cell over the shortest up to which particles are spheres.
+const CUBIC: f64 = 1.1;
+
 /// The lattice of a body.
 #[derive(Debug, Clone)]
 pub struct Lattice {
@@ -300,6 +303,18 @@ impl Lattice {
         std::array::from_fn(|k| self.axes[k].map(|x| 0.5 * self.size[k] * x))
     }
 
+    /// Shortest edge of a cell, without a mapping.
+    #[must_use]
+    pub fn shortest(&self) -> f64 {
+        self.size.into_iter().fold(f64::INFINITY, f64::min)
+    }
+
+    /// Whether edges differ by so little, without a mapping, that spheres pack them.
+    #[must_use]
+    pub fn nearly_cubic(&self) -> bool {
+        self.size.into_iter().fold(0.0, f64::max) <= CUBIC * self.shortest()
+    }
+
     /// Bytes that it takes.
     #[must_use]
     pub fn bytes(&self) -> usize {
@@ -351,6 +366,12 @@ pub fn rotation(axis: [f64; 3], angle: f64) -> [[f64; 3]; 3] {
         std::array::from_fn(|d| cos * v[d] + sin * side[d] + along * n[d])
     };
     [turn([1.0, 0.0, 0.0]), turn([0.0, 1.0, 0.0]), turn([0.0, 0.0, 1.0])]
+}
+
+/// Scalar product.
+#[must_use]
+pub fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 /// Vector product.

@@ -178,6 +178,10 @@ impl Simulation {
         let body = &self.mesh.bodies[k];
         let mut h = Holdings::default();
         for i in body.nodes.clone().chain(body.centroids.clone()) {
+            if let Some((energy, angular)) = self.contacts.rotation(&self.mesh, i) {
+                h.kinetic += energy;
+                h.angular.iter_mut().zip(angular).for_each(|(own, more)| *own += more);
+            }
             let (m, x, v) = (self.mesh.mass(i), self.position(i), self.velocity(i));
             let p = v.map(|v| m * v);
             let l = super::lattice::cross(x, p);

@@ -8,10 +8,11 @@
 use std::ops::Range;
 
 use super::cells::{Mapped, bond_areas};
+use super::element::skew_factors;
 use super::eos::Eos;
 use super::lanes::{F8, LANES, Lanes, Mask};
-use super::lattice::{CENTROID_SHARE, Lattice, contact_length};
-use super::method::Method;
+use super::lattice::{CENTROID_SHARE, Lattice, contact_length, dot};
+use super::method::{Method, Particles};
 use super::scene::{Body as BodyData, Hold, Scene, Wall};
 use super::strength::Solid;
 use crate::method::Viscosity;
@@ -42,10 +43,20 @@ pub struct Body {
     pub centroids: Range<usize>,
     /// Velocity of its translation.
     pub velocity: [f64; 3],
+    /// Angular velocity at the start.
+    pub spin: [f64; 3],
     /// Way of its translation so far.
     pub way: [f64; 3],
-    /// Contact length `2 beta h` of its particles.
+    /// Contact length `2 beta h` of its particles, or of spheres as large.
     pub length: f64,
+    /// The same, of ellipsoids along their longest axis.
+    pub longest: f64,
+    /// Contact lengths `2 beta h_k` along the axes of the lattice, where particles are ellipsoids.
+    pub ellipsoid: Option<[f64; 3]>,
+    /// What the bonds of cells with unequal edges differ by from their diagonals.
+    pub skew: Option<[f64; 3]>,
+    /// Half of the diagonal of a cell.
+    pub diagonal: f64,
     /// Volume of a cell; the mean of mapped ones.
     pub cell_volume: f64,
     /// Mass of a sixteenth of a cell.
@@ -467,22 +478,33 @@ impl Body {
         let pyramids = super::element::pyramid_volumes(&corners);
         let mapped = Mapped::new(&lattice, scene.method.balance);
         let [cell_volume, edge] = if mapped.is_empty() {
-            [lattice.cell_volume(), lattice.size.iter().copied().fold(f64::INFINITY, f64::min)]
+            [lattice.cell_volume(), lattice.shortest()]
         } else {
             [mapped.mean_volume(), mapped.edge()]
         };
+        let unequal = mapped.is_empty() && !lattice.nearly_cubic();
+        let round = unequal || mapped.is_empty() && scene.method.particles == Particles::Ellipsoids;
+        let length = contact_length(cell_volume);
+        let ellipsoid = round.then(|| lattice.size.map(|edge| 0.5 * 3f64.sqrt() * edge));
         Self {
             material: index,
             eos,
             solid: Solid::new(material, &scene.method, edge),
             rho_0: material.density,
-            length: contact_length(cell_volume),
+            length,
+            longest: ellipsoid.map_or(length, |own| own.into_iter().fold(0.0, f64::max)),
+            ellipsoid,
+            skew: unequal.then(|| skew_factors(lattice.size)),
+            diagonal: if unequal { 0.5 * dot(lattice.size, lattice.size).sqrt() } else { length },
             cell_volume,
             sixteenth: material.density * cell_volume / 16.0,
             mapped,
             pyramids,
             per_pyramid: pyramids.map(|volume| 1.0 / volume),
-            bond_areas: bond_areas(cell_volume),
+            bond_areas: bond_areas(
+                cell_volume,
+                if unequal { cell_volume / edge } else { cell_volume.powf(2.0 / 3.0) },
+            ),
             slope: eos.slope(),
             mirrors: mirrors(scene, &lattice, data.velocity),
             corners,
@@ -490,6 +512,7 @@ impl Body {
             nodes: nodes.clone(),
             centroids: centroids.clone(),
             velocity: data.velocity,
+            spin: data.spin,
             way: [0.0; 3],
         }
     }

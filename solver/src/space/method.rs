@@ -19,6 +19,16 @@ pub enum YieldNorm {
     AsPrinted,
 }
 
+/// Which particles are ellipsoids.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Particles {
+    /// Those of cells with unequal edges; where edges are equal, particles are spheres, which do not rotate.
+    Fitting,
+    /// All of cells that no mapping has moved.
+    Ellipsoids,
+}
+
 /// How fast a failed element loses its strength, Eq. (47).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
@@ -39,6 +49,8 @@ pub struct Method {
     pub integrator: Integrator,
     /// Split of the viscous heat of (60): between the pair, or the scene is refused.
     pub heating: Heating,
+    /// Which particles are ellipsoids.
+    pub particles: Particles,
     /// Reading of the yield function.
     pub yield_norm: YieldNorm,
     /// Form of the viscosity and of the conduction.
@@ -117,6 +129,7 @@ impl Preset {
             density: Density::Hybrid,
             integrator: Integrator::Compatible,
             heating: Heating::Pair,
+            particles: Particles::Fitting,
             yield_norm: YieldNorm::Mises,
             viscosity: Viscosity::Limited,
             visc_linear: 0.7,

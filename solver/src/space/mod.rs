@@ -21,6 +21,7 @@ pub mod phase;
 pub mod restart;
 pub mod scene;
 pub mod simulation;
+pub mod spin;
 pub mod strength;
 mod surfaces;
 pub mod sweep;

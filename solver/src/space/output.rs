@@ -143,6 +143,12 @@ impl Simulation {
         self.mesh.bodies.len()
     }
 
+    /// Axes of a particle in global ones, and half-lengths `h_k` along them; nothing of a sphere.
+    #[must_use]
+    pub fn ellipsoid(&self, id: u32) -> Option<([[f64; 3]; 3], [f64; 3])> {
+        self.contacts.ellipsoid((&self.mesh, &self.state), id as usize)
+    }
+
     /// Contact length `2 beta h` of the particles of a body, and the edges of its cells along its
     /// lattice axes.
     #[must_use]

@@ -6,7 +6,7 @@
 //!
 //! A contact is found whenever it is in reach, in an order that only the members decide, and so is a surface:
 //! forces do not depend on when the list of pairs was made. The count of pairs does: the places of the members
-//! at that time are kept too, and the list is made again from them.
+//! at that time are kept too, and the list is made again from them. A scene of spheres has no section of rotations.
 
 use thiserror::Error;
 
@@ -192,6 +192,9 @@ impl Simulation {
             add(name, Values::F64(places));
         }
         add("list.stale", Values::U8(vec![u8::from(contacts.stale)]));
+        if let Some(rigid) = contacts.rigid {
+            add("spin.rigid", Values::F64(rigid));
+        }
         let surfaces = self.surfaces.memory(&self.mesh, &self.contacts);
         add("surface.stand", Values::F64(surfaces.stand));
         add("surface.distance", Values::F64(surfaces.distance));
@@ -313,6 +316,7 @@ impl Simulation {
             flags: from.u8s().to_vec(),
             places: [from.f64s().to_vec(), from.f64s().to_vec(), from.f64s().to_vec()],
             stale: from.u8s() != [0],
+            rigid: self.contacts.rotates().then(|| from.f64s().to_vec()),
         };
         self.contacts.recall(&self.mesh, &memory, &self.method);
         // The list is that of its time; the members stand where they are now.

@@ -301,9 +301,8 @@ impl Shape {
     }
 }
 
-/// Longest edge of equal cells over the shortest: particles are spheres, which unequal edges would not
-/// pack.
-const LONGEST_EDGE: f64 = 1.1;
+/// Longest edge of equal cells over the shortest.
+const LONGEST_EDGE: f64 = 16.0;
 
 /// Most particles of a scene.
 const MAX_PARTICLES: usize = 50_000_000;

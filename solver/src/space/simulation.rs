@@ -419,11 +419,12 @@ impl Simulation {
             std::array::from_fn(|d| v[d] + half / mesh.mass(i) * force[d][i])
         };
         enter(Phase::Contacts);
-        self.contacts.work(mesh, mean, self.kick, (&mut sums.rho_rate, &mut sums.heat));
+        self.contacts.work((mesh, state), mean, self.kick, (&mut sums.rho_rate, &mut sums.heat));
         enter(Phase::Springs);
         let of = (mesh, &self.contacts);
         self.spring_work += self.surfaces.work(of, mean, self.kick, &mut sums.heat);
         enter(Phase::Motion);
+        self.contacts.turn(mesh, [self.kick, self.dt]);
         let pass = Motion {
             laws: self.laws(self.kick),
             particles: Particles {
@@ -471,7 +472,8 @@ impl Simulation {
         if self.method.density == Density::Kernel {
             enter(Phase::Kernel);
             let rho = &mut self.derived.rho;
-            self.counters.kernel_evaluations += self.contacts.sum_density(&self.mesh, rho);
+            self.counters.kernel_evaluations +=
+                self.contacts.sum_density(&self.mesh, &self.state, rho);
             let Allowed { sane, floored, packed, .. } = self.allowed;
             self.respond(Stage::State(self.dt));
             self.allowed = Allowed { sane, floored, packed, ..self.allowed };

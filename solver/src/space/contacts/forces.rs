@@ -1,15 +1,18 @@
-//! What pairs in contact do: Eqs. (34)-(36), the force (67) in the form (78), the viscosity (51)-(53) and the
-//! conduction (56)-(57), (62).
+//! What pairs in contact do: Eqs. (34)-(36), the force (67) in the form (78), the torque (68) in the form (79), the
+//! viscosity (51)-(55) and the conduction (56)-(57), (62).
 
 use rayon::prelude::*;
 
+use super::shape::{Arms, Meeting, Normals, Pair, Shape, Spheres};
 use super::{BLOCK, Contacts};
 use crate::method::Viscosity;
 use crate::space::columns::{Derived, State, Sums};
 use crate::space::kernel::Kernel;
 use crate::space::mesh::Mesh;
 use crate::space::method::Method;
-use crate::space::near::put;
+use crate::space::near::{PairList, put};
+use crate::space::simulation::CROSSING;
+use crate::space::spin::{Spins, Who};
 
 /// Overlap beyond which the force of a contact rises no more, as a share of the distance of contact.
 const DEEPEST: f64 = 0.8;
@@ -20,14 +23,13 @@ const BEARABLE: f64 = 0.9;
 
 /// A pair in contact in this step.
 #[derive(Debug, Clone, Copy)]
-pub struct Active {
-    /// Particles.
-    pair: [u32; 2],
-    /// Their bodies.
-    bodies: [u16; 2],
+pub struct Active<N> {
+    pair: Pair,
     /// From the second to the first.
     r: [f64; 3],
-    /// `3/8 rho_o g` of each: density rate per closing rate of `r^2 / 2`.
+    /// What ellipsoids have besides.
+    normals: N,
+    /// `3/8 rho_o g` of each: density rate per closing rate of `zeta^2 / 2`, in units of its meeting.
     row: [f64; 2],
     /// Pressure force over separation, and its share of the first particle.
     push: [f64; 2],
@@ -37,15 +39,96 @@ pub struct Active {
     flux: f64,
 }
 
-impl Active {
+/// Pairs in contact, block by block of the list.
+type Blocks<N> = Vec<Vec<Active<N>>>;
+
+/// What contacts of the particles of a scene do: of spheres, or where some are ellipsoids.
+#[derive(Debug, Clone)]
+pub(super) enum Forces {
+    Spheres(Blocks<()>),
+    Ellipsoids(Blocks<Arms>, Spins),
+}
+
+impl Default for Forces {
+    fn default() -> Self {
+        Self::Spheres(Vec::new())
+    }
+}
+
+impl Forces {
+    /// Of a mesh in which elements carry the pressure, or not.
+    pub(super) fn new(mesh: &Mesh, volumes: bool) -> Self {
+        Spins::new(mesh, volumes)
+            .map_or_else(Self::default, |spins| Self::Ellipsoids(Vec::new(), spins))
+    }
+
+    /// The rotation of the members, if they rotate.
+    pub(super) fn spins(&self) -> Option<&Spins> {
+        match self {
+            Self::Spheres(_) => None,
+            Self::Ellipsoids(_, spins) => Some(spins),
+        }
+    }
+
+    /// The same, to be changed.
+    pub(super) fn spins_mut(&mut self) -> Option<&mut Spins> {
+        match self {
+            Self::Spheres(_) => None,
+            Self::Ellipsoids(_, spins) => Some(spins),
+        }
+    }
+
+    /// Pairs that act on each other in this step.
+    pub(super) fn acting(&self) -> usize {
+        match self {
+            Self::Spheres(blocks) => blocks.iter().map(Vec::len).sum(),
+            Self::Ellipsoids(blocks, _) => blocks.iter().map(Vec::len).sum(),
+        }
+    }
+
+    pub(super) fn bytes(&self) -> usize {
+        match self {
+            Self::Spheres(blocks) => nested(blocks),
+            Self::Ellipsoids(blocks, spins) => nested(blocks) + spins.bytes(),
+        }
+    }
+}
+
+impl<N: Normals> Active<N> {
     /// Whether it does anything: particles at rest beside each other do not.
     fn moves(&self, mesh: &Mesh) -> bool {
-        self.bodies[0] != self.bodies[1]
-            && mesh.bodies[self.bodies[0] as usize].velocity
-                != mesh.bodies[self.bodies[1] as usize].velocity
+        let [a, b] = self.pair.bodies.map(usize::from);
+        a != b && mesh.bodies[a].velocity != mesh.bodies[b].velocity
             || self.push != [0.0; 2]
             || self.drag != 0.0
             || self.flux != 0.0
+            || self.normals.twists()
+    }
+}
+
+/// Members and the pairs of them that might touch.
+struct Crowd<'a> {
+    list: &'a PairList,
+    position: &'a [Vec<f64>; 3],
+    members: &'a [u32],
+    body: &'a [u16],
+}
+
+impl Crowd<'_> {
+    fn pair(&self, members: [u32; 2]) -> Pair {
+        let of = |column: &[u32]| members.map(|member| column[member as usize]);
+        let bodies = members.map(|member| self.body[member as usize]);
+        Pair { members, particles: of(self.members), bodies }
+    }
+
+    fn who(&self, member: usize) -> Who {
+        Who { particle: self.members[member] as usize, body: self.body[member].into() }
+    }
+
+    /// From the second to the first.
+    #[inline(always)]
+    fn apart(&self, [a, b]: [u32; 2]) -> [f64; 3] {
+        std::array::from_fn(|d| self.position[d][a as usize] - self.position[d][b as usize])
     }
 }
 
@@ -61,39 +144,42 @@ struct View<'a> {
 }
 
 impl Contacts {
-    /// The sweep that the paper's scheme removes: density from the positions, if by a kernel.
-    pub fn sum_density(&mut self, mesh: &Mesh, rho: &mut [f64]) -> u64 {
-        let Some(kernel) = &self.kernel else { return 0 };
-        let pairs = self.list.pairs();
-        self.terms.resize_with(pairs.len().div_ceil(BLOCK), Vec::new);
-        let (position, members, body) = (&self.position, &self.members, &self.body);
-        self.terms.par_iter_mut().zip(pairs.par_chunks(BLOCK)).for_each(|(terms, pairs)| {
-            terms.clear();
-            terms.extend(pairs.iter().map(|&[a, b]| {
-                let (a, b) = (a as usize, b as usize);
-                let square = |d: usize| (position[d][a] - position[d][b]).powi(2);
-                let distance = (square(0) + square(1) + square(2)).sqrt();
-                let term = |other: usize| {
-                    kernel.value(distance / mesh.bodies[body[other] as usize].length)
-                };
-                [term(b), term(a)]
-            }));
-        });
-        for &i in members {
-            rho[i as usize] = kernel.value(0.0);
-        }
-        for (&[a, b], term) in pairs.iter().zip(self.terms.iter().flatten()) {
-            rho[members[a as usize] as usize] += term[0];
-            rho[members[b as usize] as usize] += term[1];
-        }
-        for (&i, &body) in members.iter().zip(body) {
-            rho[i as usize] *= kernel.scale(i as usize) * mesh.bodies[body as usize].rho_0;
-        }
-        2 * pairs.len() as u64
+    /// Sees the members.
+    fn parts(&mut self) -> (Crowd<'_>, &mut Forces, Option<&Kernel>) {
+        let Self { list, position, members, body, forces, kernel, .. } = self;
+        (Crowd { list, position, members, body }, forces, kernel.as_ref())
     }
 
-    /// Forces, conduction over the last step, of length `dt`, and the marks of touched particles. Viscosity damps
-    /// a pair at the rate `most` at most, and a particle at most at [`BEARABLE`] of it: what stops a pair in a kick
+    /// The sweep that the paper's scheme removes: density from the positions, if by a kernel.
+    pub fn sum_density(&mut self, mesh: &Mesh, state: &State, rho: &mut [f64]) -> u64 {
+        let mut terms = std::mem::take(&mut self.terms);
+        let (crowd, forces, kernel) = self.parts();
+        let Some(kernel) = kernel else { return 0 };
+        match forces {
+            Forces::Spheres(_) => kernel_terms(&crowd, &Spheres, (mesh, kernel), &mut terms),
+            Forces::Ellipsoids(_, spins) => {
+                spins.pose(mesh, state, |member| crowd.who(member));
+                kernel_terms(&crowd, spins, (mesh, kernel), &mut terms);
+            }
+        }
+        for &i in crowd.members {
+            rho[i as usize] = kernel.value(0.0);
+        }
+        let pairs = crowd.list.pairs();
+        for (&[a, b], term) in pairs.iter().zip(terms.iter().flatten()) {
+            rho[crowd.members[a as usize] as usize] += term[0];
+            rho[crowd.members[b as usize] as usize] += term[1];
+        }
+        for (&i, &body) in crowd.members.iter().zip(crowd.body) {
+            rho[i as usize] *= kernel.scale(i as usize) * mesh.bodies[body as usize].rho_0;
+        }
+        let evaluations = 2 * pairs.len() as u64;
+        self.terms = terms;
+        evaluations
+    }
+
+    /// Forces, torques, conduction over the last step, of length `dt`, and the marks of touched particles. Viscosity
+    /// damps a pair at the rate `most` at most, and a particle at most at [`BEARABLE`] of it: what stops a pair in a kick
     /// needs to be no more viscous. Returns the largest rate at which a particle is damped, where no such rate is
     /// given, and how often a contact was lessened.
     pub fn push(
@@ -103,31 +189,165 @@ impl Contacts {
         (method, dt, most): (&Method, f64, f64),
         (sums, touched, active): (&mut Sums, &mut [bool], &mut [bool]),
     ) -> (f64, u64) {
-        let kernel = self.kernel.as_ref();
-        let view = View { mesh, state, derived, method, kernel, volumes: self.volumes };
         let widest = (method.reach() * self.longest).powi(2);
-        let pairs = self.list.pairs();
-        self.blocks.resize_with(pairs.len().div_ceil(BLOCK), Vec::new);
-        let (position, members, body) = (&self.position, &self.members, &self.body);
-        self.blocks.par_iter_mut().zip(pairs.par_chunks(BLOCK)).for_each(|(found, pairs)| {
+        let volumes = self.volumes;
+        let (crowd, forces, kernel) = self.parts();
+        let view = View { mesh, state, derived, method, kernel, volumes };
+        match forces {
+            Forces::Spheres(blocks) => {
+                view.find(&Spheres, (&crowd, widest), blocks);
+                let damped = view.damp(blocks, most, &mut sums.rho_rate);
+                view.apply(blocks, dt, (sums, touched, active), |_, _| {});
+                damped
+            }
+            Forces::Ellipsoids(blocks, spins) => {
+                if spins.asks() {
+                    for &[a, b] in crowd.list.pairs() {
+                        let r = crowd.apart([a, b]);
+                        if r[0] * r[0] + r[1] * r[1] + r[2] * r[2] < widest {
+                            spins.want(a as usize);
+                            spins.want(b as usize);
+                        }
+                    }
+                }
+                spins.pose(mesh, state, |member| crowd.who(member));
+                view.find(&*spins, (&crowd, widest), blocks);
+                let (rate, lessened) = view.damp(blocks, most, &mut sums.rho_rate);
+                let eased = view.ease(blocks, most, spins);
+                view.apply(blocks, dt, (sums, touched, active), |member, torque| {
+                    spins.twist(member, torque);
+                });
+                spins.couple(mesh, state, crowd.members, |i, force| {
+                    sums.fx[i] += force[0];
+                    sums.fy[i] += force[1];
+                    sums.fz[i] += force[2];
+                    touched[i] = true;
+                    active[mesh.piece_of(i)] = true;
+                });
+                (rate, lessened + eased)
+            }
+        }
+    }
+
+    /// Density rates (36), pressure work (59) and viscous heat, the first two terms of Eq. (60) given half to each,
+    /// over the mean velocities of the step, which is of length `dt`.
+    pub fn work(
+        &self,
+        (mesh, state): (&Mesh, &State),
+        mean: impl Fn(usize) -> [f64; 3],
+        dt: f64,
+        out: (&mut [f64], &mut [f64]),
+    ) {
+        match &self.forces {
+            Forces::Spheres(blocks) => work(blocks, mesh, (&mean, dt), |_| [[0.0; 3]; 2], out),
+            Forces::Ellipsoids(blocks, spins) => {
+                let both = |pair: &Pair| {
+                    let of = |k: usize| (pair.members[k], pair.who(k));
+                    [0, 1].map(|k| spins.mean((mesh, state), of(k), &mean, dt))
+                };
+                work(blocks, mesh, (&mean, dt), both, out);
+            }
+        }
+    }
+
+    /// Rotation over the step: a kick and a drift of these lengths, Eqs. (75), (77).
+    pub fn turn(&mut self, mesh: &Mesh, lengths: [f64; 2]) {
+        let (crowd, forces, _) = self.parts();
+        if let Some(spins) = forces.spins_mut() {
+            spins.advance(mesh, |member| crowd.who(member), lengths);
+        }
+    }
+}
+
+/// The terms of the sum over a kernel, pair by pair.
+fn kernel_terms<S: Shape>(
+    crowd: &Crowd<'_>,
+    shape: &S,
+    (mesh, kernel): (&Mesh, &Kernel),
+    terms: &mut Vec<Vec<[f64; 2]>>,
+) {
+    let pairs = crowd.list.pairs();
+    terms.resize_with(pairs.len().div_ceil(BLOCK), Vec::new);
+    terms.par_iter_mut().zip(pairs.par_chunks(BLOCK)).for_each(|(terms, pairs)| {
+        terms.clear();
+        terms.extend(pairs.iter().map(|&members| {
+            let meeting = shape.meet(mesh, &crowd.pair(members), crowd.apart(members));
+            meeting.zeta.map(|zeta| kernel.value(zeta))
+        }));
+    });
+}
+
+/// What contacts do over the mean velocities of a step.
+fn work<N: Normals>(
+    blocks: &Blocks<N>,
+    mesh: &Mesh,
+    (mean, dt): (&impl Fn(usize) -> [f64; 3], f64),
+    spins: impl Fn(&Pair) -> [[f64; 3]; 2],
+    (rho_rate, heat): (&mut [f64], &mut [f64]),
+) {
+    for active in blocks.iter().flatten() {
+        let [i, j] = active.pair.particles.map(|k| k as usize);
+        let [one, other] = active.pair.bodies.map(usize::from);
+        let drift = mesh.drift_of(one, other);
+        let (a, b) = (mean(i), mean(j));
+        let v: [f64; 3] = std::array::from_fn(|d| a[d] - b[d] + drift[d]);
+        let spins = spins(&active.pair);
+        let closings = active.normals.closings(active.r, v, spins);
+        let closing = -(active.r[0] * v[0] + active.r[1] * v[1] + active.r[2] * v[2]);
+        rho_rate[i] += active.row[0] * closings[0];
+        rho_rate[j] += active.row[1] * closings[1];
+        let half = 0.5 * (active.drag * closing - active.normals.torsion_power(spins));
+        heat[i] += dt * (active.push[0] * closings[0] + half);
+        heat[j] += dt * (active.push[1] * closings[1] + half);
+    }
+}
+
+/// Bytes that buffers of a buffer hold, and it.
+pub(super) fn nested<T>(buffers: &Vec<Vec<T>>) -> usize {
+    let each: usize = buffers.iter().map(Vec::capacity).sum();
+    each * std::mem::size_of::<T>() + buffers.capacity() * std::mem::size_of::<Vec<T>>()
+}
+
+/// Contacts with a viscous force.
+fn damped<N>(blocks: &mut [Vec<Active<N>>]) -> impl Iterator<Item = &mut Active<N>> {
+    blocks.iter_mut().flatten().filter(|contact| contact.drag > 0.0)
+}
+
+impl View<'_> {
+    /// The contacts of a list, those at distances whose square is below `widest`.
+    fn find<S: Shape>(
+        &self,
+        shape: &S,
+        (crowd, widest): (&Crowd<'_>, f64),
+        blocks: &mut Blocks<S::Normals>,
+    ) {
+        let pairs = crowd.list.pairs();
+        blocks.resize_with(pairs.len().div_ceil(BLOCK), Vec::new);
+        blocks.par_iter_mut().zip(pairs.par_chunks(BLOCK)).for_each(|(found, pairs)| {
             found.clear();
-            for &[a, b] in pairs {
-                let (a, b) = (a as usize, b as usize);
-                let r: [f64; 3] = std::array::from_fn(|d| position[d][a] - position[d][b]);
+            for &members in pairs {
+                let r = crowd.apart(members);
                 if r[0] * r[0] + r[1] * r[1] + r[2] * r[2] >= widest {
                     continue;
                 }
-                let bodies = [body[a] as usize, body[b] as usize];
-                if let Some(active) = view.contact([members[a], members[b]], r, bodies) {
+                if let Some(active) = self.contact(shape, crowd.pair(members), r) {
                     put(found, active);
                 }
             }
         });
-        let damped = view.damp(&mut self.blocks, most, &mut sums.rho_rate);
-        for contact in self.blocks.iter().flatten() {
-            let [i, j] = contact.pair.map(|k| k as usize);
-            let force = contact.push[0] + contact.push[1] + contact.drag;
-            let f = contact.r.map(|r| force * r);
+    }
+
+    /// Adds what contacts do to sums and marks; `twist` is told of the torque on each member.
+    fn apply<N: Normals>(
+        &self,
+        blocks: &Blocks<N>,
+        dt: f64,
+        (sums, touched, active): (&mut Sums, &mut [bool], &mut [bool]),
+        mut twist: impl FnMut(u32, [f64; 3]),
+    ) {
+        for contact in blocks.iter().flatten() {
+            let [i, j] = contact.pair.particles.map(|k| k as usize);
+            let f = contact.normals.force(contact.r, contact.push, contact.drag);
             sums.fx[i] += f[0];
             sums.fy[i] += f[1];
             sums.fz[i] += f[2];
@@ -136,56 +356,29 @@ impl Contacts {
             sums.fz[j] -= f[2];
             sums.heat[i] -= contact.flux * dt;
             sums.heat[j] += contact.flux * dt;
-            if contact.moves(mesh) {
-                active[mesh.piece_of(i)] = true;
-                active[mesh.piece_of(j)] = true;
+            if let Some(torques) = contact.normals.torques(contact.r, contact.push) {
+                contact.pair.members.into_iter().zip(torques).for_each(|(k, t)| twist(k, t));
+            }
+            if contact.moves(self.mesh) {
+                active[self.mesh.piece_of(i)] = true;
+                active[self.mesh.piece_of(j)] = true;
             }
             touched[i] = true;
             touched[j] = true;
         }
-        damped
     }
 
-    /// Density rates (36), pressure work (59) and viscous heat, the first term of Eq. (60) given half to each,
-    /// over the mean velocities of the step.
-    pub fn work(
-        &self,
-        mesh: &Mesh,
-        mean: impl Fn(usize) -> [f64; 3],
-        dt: f64,
-        (rho_rate, heat): (&mut [f64], &mut [f64]),
-    ) {
-        for active in self.blocks.iter().flatten() {
-            let [i, j] = active.pair.map(|k| k as usize);
-            let drift = mesh.drift_of(active.bodies[0] as usize, active.bodies[1] as usize);
-            let (a, b) = (mean(i), mean(j));
-            let v: [f64; 3] = std::array::from_fn(|d| a[d] - b[d] + drift[d]);
-            let closing = -(active.r[0] * v[0] + active.r[1] * v[1] + active.r[2] * v[2]);
-            rho_rate[i] += active.row[0] * closing;
-            rho_rate[j] += active.row[1] * closing;
-            let half = 0.5 * active.drag;
-            heat[i] += dt * (active.push[0] + half) * closing;
-            heat[j] += dt * (active.push[1] + half) * closing;
-        }
-    }
-}
-
-/// Contacts with a viscous force.
-fn damped(blocks: &mut [Vec<Active>]) -> impl Iterator<Item = &mut Active> {
-    blocks.iter_mut().flatten().filter(|contact| contact.drag > 0.0)
-}
-
-impl View<'_> {
-    /// The contact of particles `pair` at distance `r`, if there is one.
+    /// The contact of a pair at distance `r`, if there is one.
     #[inline]
-    fn contact(&self, pair: [u32; 2], r: [f64; 3], bodies: [usize; 2]) -> Option<Active> {
-        let [i, j] = pair.map(|k| k as usize);
+    fn contact<S: Shape>(&self, shape: &S, pair: Pair, r: [f64; 3]) -> Option<Active<S::Normals>> {
+        let [i, j] = pair.particles.map(|k| k as usize);
+        let bodies = pair.bodies.map(usize::from);
         if self.volumes && self.mesh.keeps_apart([i, j], bodies) {
             return None;
         }
         let square = r[0] * r[0] + r[1] * r[1] + r[2] * r[2];
         let body = bodies.map(|b| &self.mesh.bodies[b]);
-        let widest = body[0].length.max(body[1].length) * self.method.reach();
+        let widest = body[0].longest.max(body[1].longest) * self.method.reach();
         // Two particles that a corner of walls stops at one point have no direction to part in.
         if square >= widest * widest || square == 0.0 {
             return None;
@@ -194,20 +387,15 @@ impl View<'_> {
         let ratio = [self.derived.rho[i] / body[0].rho_0, self.derived.rho[j] / body[1].rho_0];
         let thin = [0, 1].map(|k| body[k].eos.thinning(ratio[k]));
         // Of the first on the ellipsoid of the second, Eqs. (9), (35), and the other way round.
-        let row = match self.kernel {
-            None => [
-                thin[0] * body[0].rho_0 * self.row(distance, body[1].length, ratio[1]),
-                thin[1] * body[1].rho_0 * self.row(distance, body[0].length, ratio[0]),
-            ],
+        let Meeting { zeta, unit, normals } = shape.meet(self.mesh, &pair, r);
+        let row = [0, 1].map(|k| match self.kernel {
+            None => thin[k] * body[k].rho_0 * self.row((zeta[k], unit[k]), ratio[1 - k]),
             Some(kernel) => {
-                let row = |k: usize, i: usize, length: f64| {
-                    let slope = kernel.slope(distance / length) / (distance * length);
-                    body[k].rho_0 * kernel.scale(i) * slope
-                };
-                [row(0, i, body[1].length), row(1, j, body[0].length)]
+                let slope = kernel.slope(zeta[k]) / (zeta[k] * unit[k] * unit[k]);
+                body[k].rho_0 * kernel.scale([i, j][k]) * slope
             }
-        };
-        let near = distance < body[0].length.max(body[1].length);
+        });
+        let near = zeta[0].min(zeta[1]) < 1.0;
         if row[0] == 0.0 && row[1] == 0.0 && !near {
             return None;
         }
@@ -215,15 +403,8 @@ impl View<'_> {
             let rho = self.derived.rho[i];
             row[k] * self.mesh.mass(i) * self.derived.pressure[i] / (rho * rho)
         };
-        let mut active = Active {
-            pair,
-            bodies: bodies.map(|b| b as u16),
-            r,
-            row,
-            push: [per(0, i), per(1, j)],
-            drag: 0.0,
-            flux: 0.0,
-        };
+        let push = [per(0, i), per(1, j)];
+        let mut active = Active { pair, r, normals, row, push, drag: 0.0, flux: 0.0 };
         if near {
             let impedance = [self.impedance(i, bodies[0]), self.impedance(j, bodies[1])];
             let approach = self.closing(&active) / distance;
@@ -234,6 +415,13 @@ impl View<'_> {
                 active.drag =
                     both * self.method.steepness(approach, sound, slope) * approach / distance;
             }
+            let area = |i: usize, body: usize| self.mesh.areas[body][self.mesh.share[i] as usize];
+            let torsion = impedance[0] * area(i, bodies[0]) + impedance[1] * area(j, bodies[1]);
+            shape.resist(
+                &active.pair,
+                0.5 * self.method.visc_linear * torsion,
+                &mut active.normals,
+            );
             let [a, b] = [0, 1].map(|k| impedance[k] * body[k].eos.c_v());
             // The flux of the limited viscosity acts in shocks alone.
             let coefficient = match self.method.viscosity {
@@ -246,15 +434,47 @@ impl View<'_> {
         Some(active)
     }
 
+    /// Lessens viscous torques as [`View::damp`] does forces: they are so much stiffer than those that the printed ones
+    /// would ask for a fiftieth of the step (decision 0021). Returns how often.
+    fn ease(&self, blocks: &mut [Vec<Active<Arms>>], most: f64, spins: &mut Spins) -> u64 {
+        let mut lessened = 0;
+        let rate = |pair: &Pair, k: usize, coefficient: f64| {
+            coefficient / pair.who(k).inertia(self.mesh).min()
+        };
+        let twisted = |contact: &&mut Active<Arms>| contact.normals.coefficient > 0.0;
+        for contact in blocks.iter_mut().flatten().filter(twisted) {
+            for k in 0..2 {
+                let own = rate(&contact.pair, k, contact.normals.coefficient);
+                *spins.damping(contact.pair.members[k]) += own;
+            }
+        }
+        for contact in blocks.iter_mut().flatten().filter(twisted) {
+            let crossing = |k: usize| {
+                let body = &self.mesh.bodies[usize::from(contact.pair.bodies[k])];
+                body.solid.sound / (CROSSING * body.edge())
+            };
+            // No kick is longer than the vote of sound.
+            let most = if most.is_finite() { most } else { crossing(0).max(crossing(1)) };
+            let [a, b] = contact.pair.members.map(|member| *spins.damping(member));
+            let part = (BEARABLE * most / a.max(b)).min(1.0);
+            contact.normals.ease(part);
+            lessened += u64::from(part < 1.0);
+        }
+        for contact in blocks.iter().flatten() {
+            contact.pair.members.into_iter().for_each(|member| *spins.damping(member) = 0.0);
+        }
+        lessened
+    }
+
     /// Lessens viscous forces to what stops a pair in a kick, of which `most` is the inverse, and takes [`BEARABLE`] of
-    /// its velocity from a particle. Returns what [`Contacts::push`] does. `sums` is nothing before and after: rates of density, which are summed there, are not known
-    /// yet.
-    fn damp(&self, blocks: &mut [Vec<Active>], most: f64, sums: &mut [f64]) -> (f64, u64) {
+    /// its velocity from a particle. Returns what [`Contacts::push`] does. `sums` is nothing before and after: rates of
+    /// density, which are summed there, are not known yet.
+    fn damp<N>(&self, blocks: &mut [Vec<Active<N>>], most: f64, sums: &mut [f64]) -> (f64, u64) {
         let (mut rate, mut lessened) = (0.0f64, 0);
         for contact in damped(blocks) {
             let square: f64 = contact.r.iter().map(|r| r * r).sum();
             let coefficient = contact.drag * square / self.closing(contact);
-            let pair = contact.pair.map(|k| k as usize);
+            let pair = contact.pair.particles.map(|k| k as usize);
             let own = pair.map(|i| coefficient / self.mesh.mass(i));
             let part = (most / (own[0] + own[1])).min(1.0);
             contact.drag *= part;
@@ -267,23 +487,23 @@ impl View<'_> {
         let bearable = BEARABLE * most;
         if rate > bearable {
             for contact in damped(blocks) {
-                let [i, j] = contact.pair.map(|k| k as usize);
+                let [i, j] = contact.pair.particles.map(|k| k as usize);
                 let part = (bearable / sums[i].max(sums[j])).min(1.0);
                 contact.drag *= part;
                 lessened += u64::from(part < 1.0);
             }
         }
         for contact in blocks.iter().flatten() {
-            contact.pair.into_iter().for_each(|i| sums[i as usize] = 0.0);
+            contact.pair.particles.into_iter().for_each(|i| sums[i as usize] = 0.0);
         }
         (if most.is_finite() { 0.0 } else { rate }, lessened)
     }
 
     /// Closing rate of `r^2 / 2`.
     #[inline(always)]
-    fn closing(&self, Active { pair, bodies, r, .. }: &Active) -> f64 {
-        let [i, j] = pair.map(|k| k as usize);
-        let drift = self.mesh.drift_of(bodies[0] as usize, bodies[1] as usize);
+    fn closing<N>(&self, Active { pair, r, .. }: &Active<N>) -> f64 {
+        let [i, j] = pair.particles.map(|k| k as usize);
+        let drift = self.mesh.drift_of(pair.bodies[0].into(), pair.bodies[1].into());
         let v = [
             self.state.vx[i] - self.state.vx[j] + drift[0],
             self.state.vy[i] - self.state.vy[j] + drift[1],
@@ -292,10 +512,9 @@ impl View<'_> {
         -(r[0] * v[0] + r[1] * v[1] + r[2] * v[2])
     }
 
-    /// `3/8 W / (zeta^5 L^2)`, Eqs. (35)-(36), at a distance from a particle of contact length `L`.
+    /// `3/8 W / (zeta^5 L^2)`, Eqs. (35)-(36), with the unit `L` of a meeting.
     #[inline(always)]
-    fn row(&self, distance: f64, length: f64, ratio: f64) -> f64 {
-        let zeta = distance / length;
+    fn row(&self, (zeta, length): (f64, f64), ratio: f64) -> f64 {
         let tolerance = 1.0 + self.method.contact_tolerance;
         let cube = zeta * zeta * zeta * ratio;
         if zeta >= self.method.contact_reach || cube >= tolerance * tolerance * tolerance {

@@ -1,9 +1,13 @@
 //! What contacts keep from step to step, for checkpoints.
 
+use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+
 use super::Contacts;
+use super::forces::Forces;
 use crate::space::lattice::NONE;
 use crate::space::mesh::Mesh;
 use crate::space::method::Method;
+use crate::space::spin::Rigid;
 
 /// What contacts keep from step to step, particle by particle.
 pub(in crate::space) struct Memory {
@@ -15,6 +19,9 @@ pub(in crate::space) struct Memory {
     pub(in crate::space) places: [Vec<f64>; 3],
     /// Whether the list is to be made anew.
     pub(in crate::space) stale: bool,
+    /// Of particles that rotate on their own: one, Euler parameters and angular momentum in own axes, eight numbers in
+    /// all; eight zeros of others. Nothing of spheres.
+    pub(in crate::space) rigid: Option<Vec<f64>>,
 }
 
 /// The first entry of an index of members, by particle, that cannot be: they are numbered without
@@ -39,6 +46,18 @@ fn in_order(index: &[u32]) -> Vec<u32> {
     members
 }
 
+/// What is kept of what rotates on its own.
+fn numbers(rigid: &Rigid) -> [f64; 8] {
+    let (e, h) = (rigid.turn.as_ref(), rigid.momentum);
+    [1.0, e.w, e.i, e.j, e.k, h.x, h.y, h.z]
+}
+
+/// What rotates on its own by these numbers, to the bit.
+fn rigid_of([some, e0, e1, e2, e3, h1, h2, h3]: [f64; 8]) -> Option<Rigid> {
+    let turn = UnitQuaternion::new_unchecked(Quaternion::new(e0, e1, e2, e3));
+    (some > 0.0).then(|| Rigid { turn, momentum: Vector3::new(h1, h2, h3) })
+}
+
 impl Contacts {
     /// What must outlast a restart.
     pub(in crate::space) fn memory(&self) -> Memory {
@@ -53,13 +72,19 @@ impl Contacts {
                 }
             }
         }
-        Memory { index: self.index.clone(), flags, places, stale: self.changed }
+        let rigid = self.forces.spins().map(|spins| {
+            let of = |at: &u32| by_particle(at).and_then(|at| spins.rigid(at));
+            self.index.iter().flat_map(|at| of(at).map_or([0.0; 8], numbers)).collect()
+        });
+        Memory { index: self.index.clone(), flags, places, stale: self.changed, rigid }
     }
 
     /// The members, and the list as it was made.
     pub(in crate::space) fn recall(&mut self, mesh: &Mesh, memory: &Memory, method: &Method) {
         let (longest, kernel, volumes) = (self.longest, self.kernel.take(), self.volumes);
-        *self = Self { index: vec![NONE; mesh.len], longest, kernel, volumes, ..Self::default() };
+        let forces = Forces::new(mesh, volumes);
+        let index = vec![NONE; mesh.len];
+        *self = Self { index, longest, kernel, volumes, forces, ..Self::default() };
         let order = in_order(&memory.index);
         self.reserve(mesh.particles.min(order.len() + order.len() / 8));
         for i in order {
@@ -67,6 +92,11 @@ impl Contacts {
             self.flags[member] = memory.flags[i as usize];
             for (position, places) in self.position.iter_mut().zip(&memory.places) {
                 position[member] = places[i as usize];
+            }
+            if let (Some(spins), Some(rigid)) = (self.forces.spins_mut(), &memory.rigid) {
+                let numbers = rigid.as_chunks::<8>().0[i as usize];
+                spins.set(member, rigid_of(numbers));
+                spins.want(member);
             }
         }
         if memory.stale {

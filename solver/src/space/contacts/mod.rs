@@ -8,18 +8,20 @@
 
 mod forces;
 mod memory;
+mod shape;
 
 pub(super) use self::memory::{Memory, no_order};
 
 use rayon::prelude::*;
 
-use self::forces::Active;
+use self::forces::{Forces, nested};
 use super::columns::State;
 use super::kernel::Kernel;
 use super::lattice::NONE;
 use super::mesh::Mesh;
 use super::method::Method;
 use super::near::{DEBRIS, EXPOSED, PairList, Points, Reach};
+use super::spin::{Rigid, Spins, Who, half_lengths};
 
 /// Pairs that one task evaluates.
 const BLOCK: usize = 4096;
@@ -49,7 +51,7 @@ pub struct Contacts {
     body: Vec<u16>,
     place: Vec<[i16; 3]>,
     list: PairList,
-    blocks: Vec<Vec<Active>>,
+    forces: Forces,
     kernel: Option<Kernel>,
     /// Whether elements carry the pressure of the particles that they hold.
     volumes: bool,
@@ -109,7 +111,8 @@ impl Contacts {
             kernel,
             volumes,
             index: vec![NONE; mesh.len],
-            longest: mesh.bodies.iter().map(|b| b.length).fold(0.0, f64::max),
+            forces: Forces::new(mesh, volumes),
+            longest: mesh.bodies.iter().map(|b| b.longest).fold(0.0, f64::max),
             ..Self::default()
         };
         // In the order of the particles, so that steps go through memory in one direction.
@@ -139,6 +142,9 @@ impl Contacts {
         self.flags.reserve_exact(n);
         self.body.reserve_exact(n);
         self.place.reserve_exact(n);
+        if let Some(spins) = self.forces.spins_mut() {
+            spins.reserve(n);
+        }
     }
 
     /// Makes a particle able to touch any other, and members of those within two cells.
@@ -152,6 +158,9 @@ impl Contacts {
         }
         let debris = if mesh.whole(i) { 0 } else { DEBRIS };
         self.flags[member] |= EXPOSED | FRESH | debris;
+        if let Some(spins) = self.forces.spins_mut() {
+            spins.want(member);
+        }
         if hidden {
             for near in mesh.within_two_cells(body, place) {
                 self.admit(mesh, near);
@@ -176,10 +185,13 @@ impl Contacts {
         for (position, x) in self.position.iter_mut().zip(x) {
             position.push(x);
         }
-        self.length.push(mesh.bodies[body].length as f32);
+        self.length.push(mesh.bodies[body].longest as f32);
         self.flags.push(0);
         self.body.push(body as u16);
         self.place.push(place);
+        if let Some(spins) = self.forces.spins_mut() {
+            spins.admit(mesh, Who { particle: i, body });
+        }
         member
     }
 
@@ -233,6 +245,33 @@ impl Contacts {
         (self.index[i] != NONE).then_some(self.index[i] as usize)
     }
 
+    /// Whether particles rotate: some are ellipsoids.
+    pub(super) fn rotates(&self) -> bool {
+        self.forces.spins().is_some()
+    }
+
+    /// Rotational energy of a particle, and its angular momentum about itself in global axes, if it rotates on its own.
+    pub(super) fn rotation(&self, mesh: &Mesh, i: usize) -> Option<(f64, [f64; 3])> {
+        let (spins, member) = (self.forces.spins()?, self.find(i)?);
+        let rigid = spins.rigid(member)?;
+        let who = Who { particle: i, body: self.body(member as u32) };
+        Some((rigid.energy(&who.inertia(mesh)), (rigid.turn * rigid.momentum).into()))
+    }
+
+    /// Axes of a particle in global ones, and half-lengths along them; nothing of a sphere.
+    pub(super) fn ellipsoid(
+        &self,
+        (mesh, state): (&Mesh, &State),
+        i: usize,
+    ) -> Option<([[f64; 3]; 3], [f64; 3])> {
+        let spins = self.forces.spins()?;
+        let body = mesh.place(i).0;
+        let lengths = mesh.bodies[body].ellipsoid?;
+        let own = self.find(i).and_then(|member| spins.rigid(member));
+        let axes = own.map_or_else(|| Spins::held_axes(mesh, state, i), Rigid::axes);
+        Some((axes, half_lengths(lengths)))
+    }
+
     /// Number of members.
     #[must_use]
     pub fn members(&self) -> usize {
@@ -248,7 +287,7 @@ impl Contacts {
     /// Pairs of the list that act on each other in this step.
     #[must_use]
     pub fn acting(&self) -> usize {
-        self.blocks.iter().map(Vec::len).sum()
+        self.forces.acting()
     }
 
     /// What the search for pairs has done so far.
@@ -340,12 +379,6 @@ impl Contacts {
             + self.list.bytes()
             + self.kernel.as_ref().map_or(0, Kernel::bytes)
             + nested(&self.terms)
-            + nested(&self.blocks)
+            + self.forces.bytes()
     }
-}
-
-/// Bytes that buffers of a buffer hold, and it.
-fn nested<T>(buffers: &Vec<Vec<T>>) -> usize {
-    let each: usize = buffers.iter().map(Vec::capacity).sum();
-    each * std::mem::size_of::<T>() + buffers.capacity() * std::mem::size_of::<Vec<T>>()
 }

@@ -1,5 +1,7 @@
 //! Bonds between the corners of a cell and its centroid: viscosity and conduction.
 
+use super::kinematics::spread;
+use super::skew::Skewed;
 use super::symmetric::Symmetric;
 use super::{CENTRE, Laws, Read, V3, dot, sub};
 use crate::space::cells::Cells;
@@ -31,6 +33,16 @@ impl<F: Lanes> Loads<F> {
         }
     }
 
+    /// Forces on the nine.
+    #[inline(always)]
+    fn add(&mut self, forces: &[V3<F>; 9]) {
+        for (own, force) in self.force.iter_mut().zip(forces) {
+            for (own, force) in own.iter_mut().zip(force) {
+                *own += *force;
+            }
+        }
+    }
+
     /// Heat from the corner to the centroid.
     #[inline(always)]
     pub(super) fn conduct(&mut self, slot: usize, flux: F) {
@@ -48,10 +60,10 @@ pub(super) struct Seen<'a, F> {
 }
 
 impl<F: Lanes> Seen<'_, F> {
-    /// Separation and velocity of a corner from the centroid.
+    /// A corner from the centroid.
     #[inline(always)]
-    pub(super) fn bond(&self, slot: usize) -> (V3<F>, V3<F>) {
-        (sub(&self.y[slot], &self.y[CENTRE]), sub(&self.v[slot], &self.v[CENTRE]))
+    fn diagonal(&self, slot: usize) -> V3<F> {
+        sub(&self.y[slot], &self.y[CENTRE])
     }
 }
 
@@ -81,7 +93,7 @@ impl<F: Lanes> Damping<F> {
     #[inline(always)]
     fn rates<const MAPPED: bool>(
         &self,
-        seen: &Seen<'_, F>,
+        bond: impl Fn(usize) -> V3<F>,
         light: Mask,
         cells: &Cells<'_, MAPPED>,
     ) -> Symmetric<F> {
@@ -90,8 +102,7 @@ impl<F: Lanes> Damping<F> {
         let per_mass: F = cells.volume_as(|volume| 2.0 / (cells.body.rho_0 * volume));
         let mut rates = Symmetric::zero();
         for slot in 0..8 {
-            let r = sub(&seen.y[slot], &seen.y[CENTRE]);
-            rates.add(&r, (self.nu[slot] + corner) * self.inverse[slot] * per_mass);
+            rates.add(&bond(slot), (self.nu[slot] + corner) * self.inverse[slot] * per_mass);
         }
         rates
     }
@@ -115,7 +126,7 @@ impl Group {
         let conducts = method.heat_coeff * laws.dt > 0.0;
         let mut damping = Damping::none();
         for slot in 0..8 {
-            let (r, w) = seen.bond(slot);
+            let (r, w) = (seen.diagonal(slot), sub(&seen.v[slot], &seen.v[CENTRE]));
             let square = dot(&r, &r).max(F::splat(LEAST_SQUARE));
             let near = square.lt(cells.reach_squared(slot)) & self.live;
             let approach = (-dot(&r, &w)).max(F::zero()).keep(near);
@@ -137,7 +148,7 @@ impl Group {
                 loads.conduct(slot, (pair * difference).keep(near) * conduct);
             }
         }
-        damping.rates(seen, self.light, cells)
+        damping.rates(|slot| seen.diagonal(slot), self.light, cells)
     }
 
     /// Viscosity on what neighbouring jumps along the diagonal do not explain, and the heat flux in
@@ -145,7 +156,7 @@ impl Group {
     #[inline(always)]
     pub(super) fn limited<F: Lanes, const MAPPED: bool>(
         &mut self,
-        seen: &Seen<'_, F>,
+        (seen, mut skew): (&Seen<'_, F>, impl Skewed<F>),
         (cells, laws, read): (&Cells<'_, MAPPED>, &Laws, &Read<'_>),
         loads: &mut Loads<F>,
     ) -> Symmetric<F> {
@@ -159,12 +170,13 @@ impl Group {
         let rho: [F; 9] = self.gather(read.rho);
         let mut damping = Damping::none();
         for slot in 0..8 {
-            let (r, w) = seen.bond(slot);
+            let r = skew.bond(slot, seen.diagonal(slot));
+            let closing = |to: &V3<F>, from: &V3<F>| -dot(&r, &skew.rate(slot, sub(to, from)));
             // The centroid of a dead element may lie on a corner.
             let inverse = F::splat(1.0) / dot(&r, &r).max(F::splat(LEAST_SQUARE));
             // Jumps times the separation: of the bond, of the one before and of the one beyond.
-            let own = -dot(&r, &w);
-            let before = dot(&r, &sub(&seen.v[7 - slot], &seen.v[CENTRE]));
+            let own = closing(&seen.v[slot], &seen.v[CENTRE]);
+            let before = closing(&seen.v[CENTRE], &seen.v[7 - slot]);
             let at = self.beyond[slot] as usize;
             let mut next = [
                 F::load(read.velocity[0], at),
@@ -176,7 +188,7 @@ impl Group {
                     *next = if self.mirrored[slot] >> d & 1 == 1 { -*next } else { *next };
                 }
             }
-            let beyond = dot(&r, &sub(&seen.v[slot], &next)).keep(self.has_beyond[slot]);
+            let beyond = closing(&next, &seen.v[slot]).keep(self.has_beyond[slot]);
             let (behind, ahead) = (before * own, beyond * own);
             let mean = before * beyond * method.limiter / ((before + beyond) * own);
             let explained = mean.min(F::splat(1.0)).keep(behind.gt(zero) & ahead.gt(zero));
@@ -185,23 +197,27 @@ impl Group {
             let part = F::select(own.gt(zero), F::splat(1.0) - explained, rings);
             let jump = (own * part).keep(self.live);
             let speed = jump * inverse.sqrt();
-            let closing = speed.gt(zero);
+            let closes = speed.gt(zero);
             let sound = (seen.sound[slot] + seen.sound[CENTRE]) * 0.5;
             let mass = (rho[slot] + rho[CENTRE]) * half_area;
             let steep = speed * (method.visc_quad * body.slope);
             let linear = sound * method.visc_linear;
             let shock = steep + (steep * steep + linear * linear).sqrt();
-            let nu = mass * F::select(closing, shock, sound * method.visc_expansion);
+            let nu = mass * F::select(closes, shock, sound * method.visc_expansion);
             let bond = nu * jump * inverse;
             self.bonds[slot] = bond.pack();
             damping.nu[slot] = nu.keep(speed.abs().gt(sound * QUIET));
             damping.inverse[slot] = inverse;
             loads.pull(slot, &r, bond);
+            skew.pull(slot, &r, bond);
             if conducts {
                 let difference = seen.theta[slot] - seen.theta[CENTRE];
                 loads.conduct(slot, mass * speed.max(zero) * (difference * conduct));
             }
         }
-        damping.rates(seen, self.light, cells)
+        if let Some(along) = skew.pulled() {
+            loads.add(&spread(&along, cells));
+        }
+        damping.rates(|slot| skew.bond(slot, seen.diagonal(slot)), self.light, cells)
     }
 }

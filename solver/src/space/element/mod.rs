@@ -17,14 +17,17 @@ mod particles;
 mod pressure;
 mod pyramid;
 mod resistance;
+mod skew;
 mod symmetric;
 
 pub use self::pyramid::{corner_volumes, pyramid_volumes};
+pub use self::skew::factors as skew_factors;
 
 use self::bonds::{Loads, Seen};
 use self::drag::Warp;
 use self::kinematics::{Kinematics, shear_power};
 use self::pyramid::{Extent, Pyramid, shares, tension, tension_energy};
+use self::skew::{Skew, half_powers};
 use self::symmetric::Symmetric;
 use super::cells::Cells;
 use super::columns::{AllSlices, SumsSlices};
@@ -203,9 +206,14 @@ impl Group {
             volume_squared += pressure;
             stiffness.widen((extent.faces.trace() * pressure).keep(self.bare));
             let seen = Seen { y: &y, v: &v, sound: &sound, theta: &theta };
-            damping = match laws.method.viscosity {
-                Viscosity::Limited => self.limited(&seen, (cells, laws, read), &mut loads),
-                Viscosity::Pairwise => self.pairwise(&seen, (cells, laws), &mut loads),
+            let of = (cells, laws, read);
+            damping = match (laws.method.viscosity, body.skew) {
+                (Viscosity::Pairwise, _) => self.pairwise(&seen, (cells, laws), &mut loads),
+                (Viscosity::Limited, None) => self.limited((&seen, ()), of, &mut loads),
+                (Viscosity::Limited, Some(factors)) => {
+                    let skew = Skew::new(factors, (&u, &v), cells);
+                    self.limited((&seen, skew), of, &mut loads)
+                }
             };
             let own = (&*self, cells);
             if let Some(coefficient) = drag::coefficient(&laws.method, own, || sound[CENTRE]) {
@@ -278,14 +286,13 @@ impl Group {
             let share = shares(&rates, laws.method.balance);
             self.scatter(&share, nodes.2.volume_rate, first[0]);
             self.scatter_centre(share[CENTRE], centres.2.volume_rate, first[1]);
-            let mut heat = [F::zero(); 9];
-            for slot in 0..8 {
-                let r = sub(&y[slot], &y[CENTRE]);
-                let w = sub(&v[slot], &v[CENTRE]);
-                let half = F::of(self.bonds[slot]) * dot(&r, &w) * (-0.5 * laws.dt);
-                heat[slot] = half;
-                heat[CENTRE] += half;
-            }
+            let taken = (&self.bonds, -laws.dt);
+            let mut heat = match (laws.method.viscosity, body.skew) {
+                (Viscosity::Limited, Some(factors)) => {
+                    half_powers(&Skew::new(factors, (&u, &v), cells), (&y, &v), taken)
+                }
+                _ => half_powers(&(), (&y, &v), taken),
+            };
             let sound = || F::load_some(centres.1.sound, self.centre as usize - first[1]);
             if let Some(coefficient) = drag::coefficient(&laws.method, (self, cells), sound) {
                 let made: [V3<F>; 9] =

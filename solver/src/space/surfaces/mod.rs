@@ -90,7 +90,7 @@ impl Surfaces {
             let half = 0.5 * widest_diagonal(mesh, k);
             solids().filter(|&other| other != k).find_map(|other| {
                 let pair = [k as u16, other as u16];
-                let lengths = pair.map(|body| mesh.bodies[usize::from(body)].length);
+                let lengths = pair.map(|body| mesh.bodies[usize::from(body)].longest);
                 let (far, most) =
                     (half.hypot(full_stand(mesh, pair)), SIGHT * lengths[0].max(lengths[1]));
                 (far > most).then_some((k, [far, most]))

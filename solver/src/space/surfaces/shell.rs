@@ -58,7 +58,7 @@ impl Shell {
         let Self { ways, nearest, .. } = self;
         nearest.clear();
         for ways in ways.chunk_by(|a, b| a[0] == b[0]) {
-            let length = |at: u32| mesh.bodies[contacts.body(at)].length;
+            let length = |at: u32| mesh.bodies[contacts.body(at)].longest;
             let (own, least) = (contacts.position(ways[0][0]), length(ways[0][0]));
             let mut best = (f64::INFINITY, NONE);
             for &[_, node] in ways {

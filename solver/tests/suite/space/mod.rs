@@ -3,6 +3,7 @@
 mod bodies;
 mod conservation;
 mod determinism;
+mod ellipsoids;
 mod failure;
 mod gas;
 mod lattice_density;
