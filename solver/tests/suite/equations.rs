@@ -1,14 +1,10 @@
-//! Which equations of the paper the sources cite, and which they leave for later.
+//! Which equations of the paper the sources cite.
 
 use std::collections::BTreeSet;
 use std::path::Path;
 
 /// Equations of the paper.
 const ALL: std::ops::RangeInclusive<u32> = 1..=83;
-
-/// Those of orientation and rotation: work of a later issue.
-const LATER: &[std::ops::RangeInclusive<u32>] =
-    &[1..=8, 10..=12, 54..=55, 64..=64, 68..=68, 75..=75, 77..=77, 79..=79];
 
 /// Numbers of equations that a comment cites: `(34)`, `(51)-(53)`.
 fn cited(comment: &str) -> BTreeSet<u32> {
@@ -62,18 +58,14 @@ fn cited_below(folder: &Path) -> BTreeSet<u32> {
     numbers
 }
 
-/// Every equation is cited by an item, or is one of a later issue.
+/// Every equation is cited by an item.
 #[test]
-fn every_equation_is_cited_or_later() {
+fn every_equation_is_cited() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let mut found = cited_below(&root.join("solver/src"));
     found.extend(cited_below(&root.join("vv/src")));
     let missing: Vec<u32> = ALL.filter(|n| !found.contains(n)).collect();
-    let later = |n: &u32| LATER.iter().any(|range| range.contains(n));
-    let forgotten: Vec<&u32> = missing.iter().filter(|n| !later(n)).collect();
-    println!("not cited by any item: {missing:?}");
-    assert!(forgotten.is_empty(), "not cited, and not of a later issue: {forgotten:?}");
-    assert!(!missing.is_empty(), "a list that is empty is suspicious while ellipsoids are missing");
+    assert!(missing.is_empty(), "not cited by any item: {missing:?}");
 }
 
 /// What counts as a citation.

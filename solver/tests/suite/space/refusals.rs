@@ -50,7 +50,7 @@ fn bad_scenes_are_named() {
         refused(|s| s.bodies[0].turn.axis = [0.0; 3]),
         refused(|s| s.bodies[0].energy = -1.0),
         refused(|s| s.bodies[1].shape = Shape::Sphere { diameter: -1.0 }),
-        refused(|s| s.bodies[1].cells = [8, 8, 8]),
+        refused(|s| s.bodies[1].cells = [8, 80, 8]),
         refused(|s| {
             s.bodies[1].cells = [800; 3];
             s.bodies[1].shape = Shape::Box { size: [80.0; 3] };
