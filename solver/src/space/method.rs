@@ -45,7 +45,7 @@ pub enum Release {
 pub struct Method {
     /// Density scheme.
     pub density: Density,
-    /// Time integration: compatible, or the scene is refused.
+    /// Time integration: compatible, or, where contacts carry the pressure, a single pass.
     pub integrator: Integrator,
     /// Split of the viscous heat of (60): between the pair, or the scene is refused.
     pub heating: Heating,

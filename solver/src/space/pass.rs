@@ -218,6 +218,8 @@ impl<'c> Pass<SumsSlices<'c>> for Load<'_> {
 pub struct Motion<'a> {
     /// Laws, with the length of the kick.
     pub laws: Laws,
+    /// Whether the work of elements is made out, over the mean velocities: not in a single pass.
+    pub works: bool,
     /// What is done with the particles.
     pub particles: Particles<'a>,
 }
@@ -242,6 +244,9 @@ impl<'c> Pass<AllSlices<'c>> for Motion<'_> {
         cells: &Cells<'_, MAPPED>,
         (sink, _): (&mut Sink<AllSlices<'c>>, &Moved),
     ) -> Moved {
+        if !self.works {
+            return Self::NONE;
+        }
         Moved { power: group.work::<F, MAPPED>(cells, &self.laws, sink), ..Self::NONE }
     }
 

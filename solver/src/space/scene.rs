@@ -373,8 +373,8 @@ impl Scene {
 
 impl Method {
     fn validate(&self) -> Result<(), SceneError> {
-        if self.integrator != Integrator::Compatible {
-            let wanted = "in three dimensions there is `compatible` alone";
+        if self.integrator == Integrator::SinglePass && self.density == Density::Hybrid {
+            let wanted = "elements that carry the pressure need `compatible`: their second pass";
             return Err(SceneError::new("method.integrator", self.integrator.name(), wanted));
         }
         if self.heating != Heating::Pair {

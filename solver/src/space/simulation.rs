@@ -4,7 +4,6 @@ use super::columns::{Derived, State, Sums, pieces};
 use super::contacts::Contacts;
 use super::dispatch::Instructions;
 use super::element::{Demand, Laws, Read};
-use super::kernel::Kernel;
 use super::lanes::LANES;
 use super::lattice::cross;
 use super::ledger::Holdings;
@@ -20,7 +19,7 @@ use super::votes::{Voter, Votes};
 use super::walls::{Given, Wall};
 use crate::counters::Counters;
 use crate::error::{SceneError, StepError};
-use crate::method::Density;
+use crate::method::{Density, Integrator};
 use crate::timestep::SMALLEST_STEP;
 
 /// Largest growth of the time step.
@@ -144,8 +143,6 @@ impl Simulation {
                 }
             }
         }
-        let kernel = (scene.method.density == Density::Kernel)
-            .then(|| Kernel::new(&mesh, scene.method.kernel_support));
         let surfaces = Surfaces::new(&mesh, volumes);
         if let Some((body, [far, most])) = surfaces.too_wide(&mesh) {
             let given = format!("corners {far:.3e} from the middle of a face");
@@ -155,7 +152,7 @@ impl Simulation {
         let mut simulation = Self {
             derived: Derived::zeros(mesh.len),
             sums: Sums::zeros(mesh.len),
-            contacts: Contacts::new(&mesh, volumes, kernel),
+            contacts: Contacts::new(&mesh, &scene.method),
             surfaces,
             walls: Wall::all(scene, &mesh),
             active: vec![true; mesh.pieces.len()],
@@ -427,6 +424,7 @@ impl Simulation {
         self.contacts.turn(mesh, [self.kick, self.dt]);
         let pass = Motion {
             laws: self.laws(self.kick),
+            works: self.method.integrator == Integrator::Compatible,
             particles: Particles {
                 mesh,
                 active: &self.active,

@@ -106,6 +106,28 @@ impl<N: Normals> Active<N> {
     }
 }
 
+/// What a contact does over velocities.
+struct Work {
+    rho_rate: [f64; 2],
+    /// Heat and work on the pressure, by time.
+    power: [f64; 2],
+}
+
+impl<N: Normals> Active<N> {
+    /// Density rates (36), pressure work (59) and half of the viscous heat of (60) each, where the first moves against the
+    /// second with velocity `v` and both have these spins.
+    #[inline(always)]
+    fn over(&self, v: [f64; 3], spins: [[f64; 3]; 2]) -> Work {
+        let closings = self.normals.closings(self.r, v, spins);
+        let closing = -(self.r[0] * v[0] + self.r[1] * v[1] + self.r[2] * v[2]);
+        let half = 0.5 * (self.drag * closing - self.normals.torsion_power(spins));
+        Work {
+            rho_rate: [0, 1].map(|k| self.row[k] * closings[k]),
+            power: [0, 1].map(|k| self.push[k] * closings[k] + half),
+        }
+    }
+}
+
 /// Members and the pairs of them that might touch.
 struct Crowd<'a> {
     list: &'a PairList,
@@ -145,15 +167,15 @@ struct View<'a> {
 
 impl Contacts {
     /// Sees the members.
-    fn parts(&mut self) -> (Crowd<'_>, &mut Forces, Option<&Kernel>) {
-        let Self { list, position, members, body, forces, kernel, .. } = self;
-        (Crowd { list, position, members, body }, forces, kernel.as_ref())
+    fn parts(&mut self) -> (Crowd<'_>, &mut Forces, Option<&Kernel>, &mut [f64]) {
+        let Self { list, position, members, body, forces, kernel, power, .. } = self;
+        (Crowd { list, position, members, body }, forces, kernel.as_ref(), power)
     }
 
     /// The sweep that the paper's scheme removes: density from the positions, if by a kernel.
     pub fn sum_density(&mut self, mesh: &Mesh, state: &State, rho: &mut [f64]) -> u64 {
         let mut terms = std::mem::take(&mut self.terms);
-        let (crowd, forces, kernel) = self.parts();
+        let (crowd, forces, kernel, _) = self.parts();
         let Some(kernel) = kernel else { return 0 };
         match forces {
             Forces::Spheres(_) => kernel_terms(&crowd, &Spheres, (mesh, kernel), &mut terms),
@@ -191,13 +213,16 @@ impl Contacts {
     ) -> (f64, u64) {
         let widest = (method.reach() * self.longest).powi(2);
         let volumes = self.volumes;
-        let (crowd, forces, kernel) = self.parts();
+        let (crowd, forces, kernel, power) = self.parts();
         let view = View { mesh, state, derived, method, kernel, volumes };
         match forces {
             Forces::Spheres(blocks) => {
                 view.find(&Spheres, (&crowd, widest), blocks);
                 let damped = view.damp(blocks, most, &mut sums.rho_rate);
-                view.apply(blocks, dt, (sums, touched, active), |_, _| {});
+                let once = |contact: &Active<()>, sums: &mut Sums| {
+                    view.work_at_once(contact, [[0.0; 3]; 2], (sums, power));
+                };
+                view.apply(blocks, dt, (sums, touched, active), once);
                 damped
             }
             Forces::Ellipsoids(blocks, spins) => {
@@ -214,8 +239,13 @@ impl Contacts {
                 view.find(&*spins, (&crowd, widest), blocks);
                 let (rate, lessened) = view.damp(blocks, most, &mut sums.rho_rate);
                 let eased = view.ease(blocks, most, spins);
-                view.apply(blocks, dt, (sums, touched, active), |member, torque| {
-                    spins.twist(member, torque);
+                view.apply(blocks, dt, (sums, touched, active), |contact, sums| {
+                    let both = contact.pair.members.map(|member| spins.of(member).spin);
+                    view.work_at_once(contact, both, (sums, power));
+                    if let Some(torques) = contact.normals.torques(contact.r, contact.push) {
+                        let each = contact.pair.members.into_iter().zip(torques);
+                        each.for_each(|(member, torque)| spins.twist(member, torque));
+                    }
                 });
                 spins.couple(mesh, state, crowd.members, |i, force| {
                     sums.fx[i] += force[0];
@@ -230,14 +260,21 @@ impl Contacts {
     }
 
     /// Density rates (36), pressure work (59) and viscous heat, the first two terms of Eq. (60) given half to each,
-    /// over the mean velocities of the step, which is of length `dt`.
+    /// over the mean velocities of the step, which is of length `dt`. A single pass has summed them before.
     pub fn work(
-        &self,
+        &mut self,
         (mesh, state): (&Mesh, &State),
         mean: impl Fn(usize) -> [f64; 3],
         dt: f64,
         out: (&mut [f64], &mut [f64]),
     ) {
+        if !self.power.is_empty() {
+            let heat = out.1;
+            for (&i, power) in self.members.iter().zip(&mut self.power) {
+                heat[i as usize] += dt * std::mem::take(power);
+            }
+            return;
+        }
         match &self.forces {
             Forces::Spheres(blocks) => work(blocks, mesh, (&mean, dt), |_| [[0.0; 3]; 2], out),
             Forces::Ellipsoids(blocks, spins) => {
@@ -252,7 +289,7 @@ impl Contacts {
 
     /// Rotation over the step: a kick and a drift of these lengths, Eqs. (75), (77).
     pub fn turn(&mut self, mesh: &Mesh, lengths: [f64; 2]) {
-        let (crowd, forces, _) = self.parts();
+        let (crowd, forces, ..) = self.parts();
         if let Some(spins) = forces.spins_mut() {
             spins.advance(mesh, |member| crowd.who(member), lengths);
         }
@@ -291,14 +328,11 @@ fn work<N: Normals>(
         let drift = mesh.drift_of(one, other);
         let (a, b) = (mean(i), mean(j));
         let v: [f64; 3] = std::array::from_fn(|d| a[d] - b[d] + drift[d]);
-        let spins = spins(&active.pair);
-        let closings = active.normals.closings(active.r, v, spins);
-        let closing = -(active.r[0] * v[0] + active.r[1] * v[1] + active.r[2] * v[2]);
-        rho_rate[i] += active.row[0] * closings[0];
-        rho_rate[j] += active.row[1] * closings[1];
-        let half = 0.5 * (active.drag * closing - active.normals.torsion_power(spins));
-        heat[i] += dt * (active.push[0] * closings[0] + half);
-        heat[j] += dt * (active.push[1] * closings[1] + half);
+        let work = active.over(v, spins(&active.pair));
+        rho_rate[i] += work.rho_rate[0];
+        rho_rate[j] += work.rho_rate[1];
+        heat[i] += dt * work.power[0];
+        heat[j] += dt * work.power[1];
     }
 }
 
@@ -337,13 +371,13 @@ impl View<'_> {
         });
     }
 
-    /// Adds what contacts do to sums and marks; `twist` is told of the torque on each member.
+    /// Adds what contacts do to sums and marks, and whatever more `each` does with them.
     fn apply<N: Normals>(
         &self,
         blocks: &Blocks<N>,
         dt: f64,
         (sums, touched, active): (&mut Sums, &mut [bool], &mut [bool]),
-        mut twist: impl FnMut(u32, [f64; 3]),
+        mut each: impl FnMut(&Active<N>, &mut Sums),
     ) {
         for contact in blocks.iter().flatten() {
             let [i, j] = contact.pair.particles.map(|k| k as usize);
@@ -356,9 +390,7 @@ impl View<'_> {
             sums.fz[j] -= f[2];
             sums.heat[i] -= contact.flux * dt;
             sums.heat[j] += contact.flux * dt;
-            if let Some(torques) = contact.normals.torques(contact.r, contact.push) {
-                contact.pair.members.into_iter().zip(torques).for_each(|(k, t)| twist(k, t));
-            }
+            each(contact, sums);
             if contact.moves(self.mesh) {
                 active[self.mesh.piece_of(i)] = true;
                 active[self.mesh.piece_of(j)] = true;
@@ -366,6 +398,27 @@ impl View<'_> {
             touched[i] = true;
             touched[j] = true;
         }
+    }
+
+    /// The work of a contact over the velocities at hand, in the sweep that finds its force: what a single pass has
+    /// instead of [`work`]. Density rates go to sums, powers to members until the length of the kick is known.
+    #[inline(always)]
+    fn work_at_once<N: Normals>(
+        &self,
+        active: &Active<N>,
+        spins: [[f64; 3]; 2],
+        (sums, power): (&mut Sums, &mut [f64]),
+    ) {
+        if power.is_empty() {
+            return;
+        }
+        let [i, j] = active.pair.particles.map(|k| k as usize);
+        let work = active.over(self.velocity(&active.pair), spins);
+        sums.rho_rate[i] += work.rho_rate[0];
+        sums.rho_rate[j] += work.rho_rate[1];
+        let [a, b] = active.pair.members.map(|k| k as usize);
+        power[a] += work.power[0];
+        power[b] += work.power[1];
     }
 
     /// The contact of a pair at distance `r`, if there is one.
@@ -502,14 +555,20 @@ impl View<'_> {
     /// Closing rate of `r^2 / 2`.
     #[inline(always)]
     fn closing<N>(&self, Active { pair, r, .. }: &Active<N>) -> f64 {
+        let v = self.velocity(pair);
+        -(r[0] * v[0] + r[1] * v[1] + r[2] * v[2])
+    }
+
+    /// Velocity of the first against the second.
+    #[inline(always)]
+    fn velocity(&self, pair: &Pair) -> [f64; 3] {
         let [i, j] = pair.particles.map(|k| k as usize);
         let drift = self.mesh.drift_of(pair.bodies[0].into(), pair.bodies[1].into());
-        let v = [
+        [
             self.state.vx[i] - self.state.vx[j] + drift[0],
             self.state.vy[i] - self.state.vy[j] + drift[1],
             self.state.vz[i] - self.state.vz[j] + drift[2],
-        ];
-        -(r[0] * v[0] + r[1] * v[1] + r[2] * v[2])
+        ]
     }
 
     /// `3/8 W / (zeta^5 L^2)`, Eqs. (35)-(36), with the unit `L` of a meeting.

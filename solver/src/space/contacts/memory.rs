@@ -84,7 +84,8 @@ impl Contacts {
         let (longest, kernel, volumes) = (self.longest, self.kernel.take(), self.volumes);
         let forces = Forces::new(mesh, volumes);
         let index = vec![NONE; mesh.len];
-        *self = Self { index, longest, kernel, volumes, forces, ..Self::default() };
+        let power = std::mem::take(&mut self.power);
+        *self = Self { index, longest, kernel, volumes, forces, power, ..Self::default() };
         let order = in_order(&memory.index);
         self.reserve(mesh.particles.min(order.len() + order.len() / 8));
         for i in order {

@@ -22,6 +22,7 @@ use super::mesh::Mesh;
 use super::method::Method;
 use super::near::{DEBRIS, EXPOSED, PairList, Points, Reach};
 use super::spin::{Rigid, Spins, Who, half_lengths};
+use crate::method::{Density, Integrator};
 
 /// Pairs that one task evaluates.
 const BLOCK: usize = 4096;
@@ -55,6 +56,8 @@ pub struct Contacts {
     kernel: Option<Kernel>,
     /// Whether elements carry the pressure of the particles that they hold.
     volumes: bool,
+    /// Power of the contacts on each member, where the sweep that finds forces sums it: in a single pass.
+    power: Vec<f64>,
     terms: Vec<Vec<[f64; 2]>>,
     /// Changes of the list so far.
     changes: u64,
@@ -106,7 +109,10 @@ fn may_touch<'a>(
 impl Contacts {
     /// Chooses members: all particles, or where elements carry the pressure, those near surfaces.
     #[must_use]
-    pub fn new(mesh: &Mesh, volumes: bool, kernel: Option<Kernel>) -> Self {
+    pub fn new(mesh: &Mesh, method: &Method) -> Self {
+        let volumes = method.density == Density::Hybrid;
+        let kernel = method.density == Density::Kernel;
+        let kernel = kernel.then(|| Kernel::new(mesh, method.kernel_support));
         let mut contacts = Self {
             kernel,
             volumes,
@@ -130,6 +136,10 @@ impl Contacts {
         }
         for i in mesh.real().filter(exposed) {
             contacts.expose(mesh, i);
+        }
+        if method.integrator == Integrator::SinglePass {
+            // By contact densities all are members, and stay the only ones.
+            contacts.power = vec![0.0; contacts.members.len()];
         }
         contacts
     }
@@ -378,6 +388,7 @@ impl Contacts {
             + 4 * self.index.capacity()
             + self.list.bytes()
             + self.kernel.as_ref().map_or(0, Kernel::bytes)
+            + 8 * self.power.capacity()
             + nested(&self.terms)
             + self.forces.bytes()
     }

@@ -1,9 +1,10 @@
 //! What no run may lose: mass, momentum, angular momentum and energy.
 
+use whipple_solver::method::{Density, Integrator, Preset};
 use whipple_solver::space::Simulation;
 use whipple_solver::space::method::Method;
 use whipple_solver::space::output::Particle;
-use whipple_solver::space::scene::{Body, EosData, Failure, Hold, Material, Side, Wall};
+use whipple_solver::space::scene::{Body, EosData, Failure, Hold, Material, Scene, Side, Wall};
 
 use super::scenes::{after, block, copper, rod, scene, start, steel, tungsten};
 
@@ -54,6 +55,28 @@ fn blocks_at_walls() {
         for p in simulation.all_particles() {
             assert!(p.position[0] >= -1e-12, "{hold:?}: {p:?}");
         }
+    }
+}
+
+/// A single pass, by contacts or by a kernel, keeps momentum, and energy as far as its steps are short.
+#[test]
+fn a_single_pass_errs_in_energy_alone() {
+    for density in [Density::Nonholonomic, Density::Kernel] {
+        let fast = Body { velocity: [0.05, 0.01, 0.0], ..block("copper", [8, 5, 4], 0.1) };
+        let slow = Body { centre: [0.83, 0.12, 0.07], ..block("copper", [8, 5, 4], 0.1) };
+        let scene = scene(vec![copper()], vec![fast, slow]);
+        let integrator = Integrator::SinglePass;
+        let drift = |cfl: f64| {
+            let method = Method { density, integrator, cfl, ..Preset::Paper.space() };
+            let mut simulation = start(&Scene { method, ..scene.clone() });
+            simulation.advance_to(2.0).expect("they collide");
+            let b = simulation.balance();
+            assert!(b.momentum_drift() < 1e-13 && b.angular_drift() < 1e-12);
+            b.energy_drift()
+        };
+        let drifts = [0.4, 0.2].map(drift);
+        println!("{density:?}: energy {drifts:?}");
+        assert!(drifts[0] < 0.1 && drifts[1] < 0.7 * drifts[0], "{density:?}: {drifts:?}");
     }
 }
 

@@ -21,7 +21,7 @@ fn along(path: impl Fn(f64) -> F) -> f64 {
         ..scene(vec![copper()], vec![block("copper", [8; 3], 0.1)])
     };
     let (mesh, _) = Mesh::new(&scene);
-    let mut contacts = Contacts::new(&mesh, false, None);
+    let mut contacts = Contacts::new(&mesh, &method);
     let (mut state, mut derived) = (State::zeros(mesh.len), Derived::zeros(mesh.len));
     let mut sums = Sums::zeros(mesh.len);
     let mut rho = vec![8.93; mesh.len];
