@@ -116,6 +116,13 @@ struct RunArgs {
     /// Variant of the case
     #[arg(long, default_value = "", allow_hyphen_values = true)]
     variant: String,
+    /// Angle of the impact from the normal in degrees, of a case that has a choice of them; this chooses
+    /// the variant
+    #[arg(long, value_name = "DEGREES", conflicts_with = "variant", allow_hyphen_values = true)]
+    angle: Option<String>,
+    /// Equation of state of the target, of a case that has a choice of them; this chooses the variant
+    #[arg(long, value_name = "NAME", conflicts_with = "variant", allow_hyphen_values = true)]
+    eos: Option<String>,
     /// Stop at this time instead of the case's own: a number in the units of the scene, or with a
     /// unit (20us, 0.5ms)
     #[arg(long, value_name = "TIME", conflicts_with = "godunov", allow_hyphen_values = true)]

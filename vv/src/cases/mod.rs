@@ -14,6 +14,7 @@ macro_rules! wanted {
     };
 }
 
+mod al_sphere_plate;
 mod beam;
 mod block_collision;
 mod einfeldt;
@@ -240,7 +241,7 @@ pub trait Case: Sync {
 }
 
 /// All cases, in the order of the report.
-pub const ALL: [&dyn Case; 29] = [
+pub const ALL: [&dyn Case; 30] = [
     &noh::Noh,
     &kolsky::Kolsky,
     &uniform_collapse::CASE,
@@ -270,6 +271,7 @@ pub const ALL: [&dyn Case; 29] = [
     &taylor::STEEL_ROD,
     &long_rod::LongRod,
     &rcc_plate::RccPlate,
+    &al_sphere_plate::AlSpherePlate,
 ];
 
 /// The case of a name.

@@ -9,7 +9,7 @@ use whipple_solver::space::scene::{Scene, Shape};
 use super::impact::PLATE;
 
 /// Pixels along the edge of a cell.
-const FINE: f64 = 6.0;
+const FINE: f64 = 4.0;
 /// Cells along the edges of the plate that are left out: what is open there is no hole.
 const RIM: f64 = 2.0;
 

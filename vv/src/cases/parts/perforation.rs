@@ -5,13 +5,18 @@ use whipple_solver::space::ledger::Balance;
 use whipple_solver::space::scene::Scene;
 
 use super::cloud::Cloud;
-use super::impact::{DIAMETER, PLATE, SPHERE};
+use super::impact::{DIAMETER, PLATE, SPHERE, STOP};
 use super::pieces::Pieces;
 use super::{Columns, fit, hole, kilojoules};
+use crate::cases::{Claim, Claims, Kind, Quantity, Wanted, Weight, in_words};
+use crate::record::RunKey;
 use crate::run::{Findings, RunError, SpaceDriver};
 
-/// Time between two entries of the histories, in us.
-const EVERY: f64 = 0.1;
+/// Times between two entries of the histories in us, and when the first of them gives way to the second:
+/// the run lands on every entry, which shortens steps.
+const OFTEN: f64 = 0.25;
+const SELDOM: f64 = 0.5;
+const EARLY: f64 = 3.0;
 
 /// Over the last so many us the growth of the hole is fitted.
 const LATE: f64 = 1.0;
@@ -100,6 +105,31 @@ pub(in crate::cases) const QUANTITIES: [(&str, &str); 3] = [
     ("perforation_time_us", "perforated, µs"),
 ];
 
+/// What every run must do: perforate, lose nothing of the work on elements, keep all mass in sight.
+pub(in crate::cases) fn claims(id: &'static str, key: &RunKey) -> Vec<Claim> {
+    let run = in_words(key);
+    let must = Claims::new(id, Kind::Verification, Weight::Must, wanted!());
+    let norm = |name| Quantity::Norm(key.clone(), name);
+    vec![
+        Claims { kind: Kind::Stability, source: "it perforates by far, by every estimate", ..must }
+            .claim(
+                format!("time of perforation in µs, {run}"),
+                norm("perforation_time_us"),
+                Wanted::AtMost(STOP),
+            ),
+        must.claim(
+            format!("residual of the elements over the initial kinetic energy, {run}"),
+            Quantity::Residual(key.clone()),
+            Wanted::WithinZero(1e-3),
+        ),
+        Claims { source: "round-off of sums", ..must }.claim(
+            format!("masses behind, in front and in the plate over all mass, error, {run}"),
+            norm("mass_partition_error"),
+            Wanted::AtMost(1e-12),
+        ),
+    ]
+}
+
 /// The numbers of [`HISTORY`] of a state.
 fn look(scene: &Scene, solver: &Simulation, balance: &Balance) -> Vec<f64> {
     let cloud = Cloud::of(solver);
@@ -125,6 +155,16 @@ fn reached(times: &[f64], values: &[f64], level: f64) -> Option<f64> {
     Some(times[before] + share * (times[k] - times[before]))
 }
 
+/// Times of the entries up to the end of a run.
+fn times(stop: f64) -> Vec<f64> {
+    let early = (EARLY / OFTEN) as usize;
+    let at = |k: usize| match k.checked_sub(early) {
+        Some(after) => EARLY + SELDOM * after as f64,
+        None => OFTEN * k as f64,
+    };
+    (0..).map(at).take_while(|time| *time < stop).chain([stop]).collect()
+}
+
 /// Runs to the end, measures, and tells `passing` every time that it stops at.
 pub(in crate::cases) fn measure(
     driver: &mut SpaceDriver<'_>,
@@ -132,9 +172,7 @@ pub(in crate::cases) fn measure(
     mut passing: impl FnMut(&mut SpaceDriver<'_>, f64) -> Result<(), RunError>,
 ) -> Result<Findings, RunError> {
     let mut history = Columns::default();
-    let entries = (scene.stop_time / EVERY).ceil() as usize;
-    for k in 0..=entries {
-        let time = (k as f64 * EVERY).min(scene.stop_time);
+    for time in times(scene.stop_time) {
         driver.advance_to(time)?;
         let row = driver.look(|solver, balance| look(scene, solver, balance))?;
         history.read(&HISTORY, &row);
@@ -158,8 +196,7 @@ fn from_history(history: &Columns, findings: &mut Findings) {
         column(a).iter().zip(column(b)).map(|(a, b)| a + b).collect()
     };
     let behind = both("sphere_behind", "plate_behind");
-    let sphere = last("sphere_behind") + last("plate_behind");
-    findings.enter("mass_behind_g", sphere);
+    findings.enter("mass_behind_g", behind.last().copied().unwrap_or(f64::NAN));
     // All of the sphere is in front of the plate at the start.
     let whole_sphere = column("in_front").first().copied().unwrap_or(f64::NAN);
     let open = reached(times, column("hole"), OPEN * DIAMETER);
@@ -170,7 +207,7 @@ fn from_history(history: &Columns, findings: &mut Findings) {
     let end = last("time");
     let late: Vec<(f64, f64)> = times.iter().copied().zip(column("hole").iter().copied()).collect();
     let late: Vec<(f64, f64)> =
-        late.into_iter().filter(|(time, _)| *time >= end - LATE - 0.5 * EVERY).collect();
+        late.into_iter().filter(|(time, _)| *time > end - LATE - 0.5 * SELDOM).collect();
     findings.enter("hole_growth_cm_us", fit::slope(&late));
     findings.enter("momentum_behind_g_cm_us", last("sphere_momentum") + last("plate_momentum"));
     for (name, of) in [
@@ -228,6 +265,13 @@ fn fragments(solver: &Simulation, findings: &mut Findings) -> Columns {
 mod tests {
     use super::*;
     use approx::assert_relative_eq;
+
+    #[test]
+    fn entries_end_with_the_run() {
+        let all = times(10.0);
+        assert_eq!((all.len(), all[1], all[12], all[13], all[26]), (27, 0.25, 3.0, 3.5, 10.0));
+        assert_eq!(times(0.3), [0.0, 0.25, 0.3]);
+    }
 
     #[test]
     fn levels_are_reached_between_entries() {
