@@ -14,6 +14,7 @@ pub(super) mod perforation;
 pub(super) mod pieces;
 pub(super) mod planes;
 pub(super) mod shells;
+pub(super) mod studies;
 
 use std::collections::BTreeMap;
 
