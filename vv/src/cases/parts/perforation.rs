@@ -201,9 +201,8 @@ fn from_history(history: &Columns, findings: &mut Findings) {
     let whole_sphere = column("in_front").first().copied().unwrap_or(f64::NAN);
     let open = reached(times, column("hole"), OPEN * DIAMETER);
     let out = reached(times, &behind, BEHIND * whole_sphere);
-    if let Some((open, out)) = open.zip(out) {
-        findings.enter("perforation_time_us", open.max(out));
-    }
+    let perforated = open.zip(out).map_or(f64::NAN, |(open, out)| open.max(out));
+    findings.enter("perforation_time_us", perforated);
     let end = last("time");
     let late: Vec<(f64, f64)> = times.iter().copied().zip(column("hole").iter().copied()).collect();
     let late: Vec<(f64, f64)> =
