@@ -74,7 +74,7 @@ enum Command {
     Vv(VvArgs),
     /// Redraw the report from its records, over the one that is there, without running anything
     Report(ReportArgs),
-    /// Measure speed: cost of the density schemes, and the long rod in three dimensions
+    /// Measure speed: cost of the density schemes, and the cases of impact in three dimensions
     Bench(BenchArgs),
     /// Make the reference of woodward-colella, which has no exact solution; takes some minutes
     ///
@@ -116,6 +116,13 @@ struct RunArgs {
     /// Variant of the case
     #[arg(long, default_value = "", allow_hyphen_values = true)]
     variant: String,
+    /// Angle of the impact from the normal in degrees, of a case that has a choice of them; this chooses
+    /// the variant
+    #[arg(long, value_name = "DEGREES", conflicts_with = "variant", allow_hyphen_values = true)]
+    angle: Option<String>,
+    /// Equation of state of the target, of a case that has a choice of them; this chooses the variant
+    #[arg(long, value_name = "NAME", conflicts_with = "variant", allow_hyphen_values = true)]
+    eos: Option<String>,
     /// Stop at this time instead of the case's own: a number in the units of the scene, or with a
     /// unit (20us, 0.5ms)
     #[arg(long, value_name = "TIME", conflicts_with = "godunov", allow_hyphen_values = true)]
@@ -224,10 +231,10 @@ struct BenchArgs {
     /// Density: A/B/B/A rounds
     #[arg(long, default_value_t = 10, allow_hyphen_values = true, value_parser = whole(1..=1000))]
     rounds: usize,
-    /// Rod: cells across
-    #[arg(long, default_value_t = 5, allow_hyphen_values = true, value_parser = whole(1..=1000))]
-    cells: usize,
-    /// Rod: steps of each run, from its start
+    /// Impacts: size, as `run --n`; that of the case if none is given
+    #[arg(long, allow_hyphen_values = true, value_parser = whole(1..=1000))]
+    cells: Option<usize>,
+    /// Impacts: steps of each run, from its start
     #[arg(
         long,
         default_value_t = 400,
@@ -235,13 +242,13 @@ struct BenchArgs {
         value_parser = whole(1..=10_000_000)
     )]
     steps: usize,
-    /// Rod: runs to their end instead
+    /// Impacts: runs to their end instead
     #[arg(long, conflicts_with = "steps")]
     whole: bool,
-    /// Rod: threads that are compared with one
+    /// Impacts: threads that are compared with one
     #[arg(long, default_value_t = 2, allow_hyphen_values = true, value_parser = whole(THREADS))]
     threads: usize,
-    /// Rod: folder for the tables as CSV and the figure as SVG
+    /// Impacts: folder for the tables as CSV and the figures as SVG
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 }
@@ -253,6 +260,10 @@ enum Bench {
     Density,
     /// Speed, phases and memory of the long rod in three dimensions
     Rod,
+    /// The same of the sphere on carbon-carbon
+    Plate,
+    /// The same of the sphere on aluminium
+    Sphere,
 }
 
 #[derive(Debug, clap::Args)]

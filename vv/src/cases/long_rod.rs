@@ -6,7 +6,6 @@ mod history;
 mod photos;
 mod problem;
 mod published;
-mod residual;
 mod tables;
 
 use whipple_solver::method::{Density, Preset};

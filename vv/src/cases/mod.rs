@@ -14,6 +14,7 @@ macro_rules! wanted {
     };
 }
 
+mod al_sphere_plate;
 mod beam;
 mod block_collision;
 mod einfeldt;
@@ -31,6 +32,7 @@ mod noh;
 mod noh_space;
 mod parts;
 mod planar_impact;
+mod rcc_plate;
 mod saltzman;
 mod sedov;
 mod sod;
@@ -104,6 +106,29 @@ pub struct Eulerian {
     pub cpu: Option<Duration>,
 }
 
+/// Something of a problem that an option of its own chooses on the command line, `--angle` or `--eos`.
+#[derive(Debug, Clone, Copy)]
+pub struct Choice {
+    /// Name of the option.
+    pub name: &'static str,
+    /// What can be chosen; the first is what the plain variant has.
+    pub values: &'static [&'static str],
+}
+
+impl Choice {
+    /// What a value adds to the name of a variant, whether or not the plain one has it.
+    #[must_use]
+    pub fn part(&self, value: &str) -> String {
+        format!("{}-{value}", self.name)
+    }
+
+    /// What a value adds to the name of a variant: nothing if the plain one has it.
+    #[must_use]
+    pub fn named(&self, value: &str) -> Option<String> {
+        (value != self.values[0]).then(|| self.part(value))
+    }
+}
+
 /// A problem with a known answer.
 pub trait Case: Sync {
     /// Name on the command line.
@@ -121,6 +146,13 @@ pub trait Case: Sync {
     /// Variants; the first is the one that runs when none is named, and its name is empty.
     fn variants(&self) -> &'static [&'static str] {
         &[""]
+    }
+
+    /// What has options of its own on the command line. Chosen values that the plain variant does not have
+    /// make the name of the variant that runs, joined by `_` in this order: all of them are in
+    /// [`Case::variants`].
+    fn choices(&self) -> &'static [Choice] {
+        &[]
     }
 
     /// Size when none is given: of particles along a line, of cells across what the case names in space.
@@ -209,7 +241,7 @@ pub trait Case: Sync {
 }
 
 /// All cases, in the order of the report.
-pub const ALL: [&dyn Case; 28] = [
+pub const ALL: [&dyn Case; 30] = [
     &noh::Noh,
     &kolsky::Kolsky,
     &uniform_collapse::CASE,
@@ -238,6 +270,8 @@ pub const ALL: [&dyn Case; 28] = [
     &taylor::COPPER_ROD,
     &taylor::STEEL_ROD,
     &long_rod::LongRod,
+    &rcc_plate::RccPlate,
+    &al_sphere_plate::AlSpherePlate,
 ];
 
 /// The case of a name.

@@ -226,7 +226,13 @@ impl Case for Saltzman {
             driver.photograph("saltzman-lattice", PICTURE, |simulation| {
                 let (title, camera) =
                     ("Saltzman's piston: the skewed lattice".into(), onto_the_section());
-                let shot = Shot { title, camera, section: None, shown: Shown::Temperature(None) };
+                let shot = Shot {
+                    title,
+                    camera,
+                    section: None,
+                    shown: Shown::Temperature(None),
+                    loose: true,
+                };
                 shoot(simulation, scene, &shot)
             })?;
         }

@@ -205,7 +205,13 @@ impl Case for Verney {
         if *key == default_run(ID, SIZES[1]) {
             driver.photograph("verney-end", PICTURE, |simulation| {
                 let (title, camera) = ("The tube after its collapse".into(), onto_the_section());
-                let shot = Shot { title, camera, section: None, shown: Shown::Temperature(None) };
+                let shot = Shot {
+                    title,
+                    camera,
+                    section: None,
+                    shown: Shown::Temperature(None),
+                    loose: true,
+                };
                 shoot(simulation, scene, &shot)
             })?;
         }

@@ -1,4 +1,4 @@
-//! `whipple bench`: what the density costs along a line, and how fast the long rod is.
+//! `whipple bench`: what the density costs along a line, and how fast the cases of impact are in space.
 
 use whipple_solver::method::{Density, Integrator, Preset};
 
@@ -41,47 +41,63 @@ pub(super) fn bench(args: &BenchArgs) -> Result<u8, Failure> {
     if wants(Bench::Density) {
         density(args)?;
     }
-    if wants(Bench::Rod) {
-        rod(args)?;
+    for (what, impact) in IMPACTS {
+        if wants(what) {
+            pace_of(&impact, args)?;
+        }
     }
     Ok(0)
 }
 
-/// Speed, phases and memory of the long rod: `default`, the paper's method, and the kernel that it
-/// removes.
-fn rod(args: &BenchArgs) -> Result<(), Failure> {
+/// A case whose speed is measured.
+struct Impact {
+    case: &'static str,
+    /// The variant that `paper` runs.
+    of_paper: &'static str,
+}
+
+const IMPACTS: [(Bench, Impact); 3] = [
+    (Bench::Rod, Impact { case: "long-rod", of_paper: "as-printed" }),
+    (Bench::Plate, Impact { case: "rcc-plate", of_paper: "" }),
+    (Bench::Sphere, Impact { case: "al-sphere-plate", of_paper: "" }),
+];
+
+/// Speed, phases and memory of a case: `default`, the paper's method, and the kernel that it removes.
+fn pace_of(impact: &Impact, args: &BenchArgs) -> Result<(), Failure> {
     let stretch = if args.whole { Stretch::Whole } else { Stretch::Steps(args.steps as u64) };
-    let rod = super::run::find("long-rod")?;
+    let case = super::run::find(impact.case)?;
+    let n = args.cells.unwrap_or(case.default_size());
     let scene = |scheme: Scheme, variant: &str| {
-        let key = RunKey::new(rod.id(), scheme, args.cells).variant(variant);
-        let scene = scene_of(rod, &key).and_then(|scene| scene.space().cloned());
-        scene.ok_or_else(|| Failure::usage("the long rod is in space"))
+        let key = RunKey::new(case.id(), scheme, n).variant(variant);
+        let scene = scene_of(case, &key).and_then(|scene| scene.space().cloned());
+        scene.ok_or_else(|| Failure::usage(format!("`{}` is not in space", case.id())))
     };
     let kernel = Scheme::Particles { preset: Preset::Paper, density: Density::Kernel };
     // The kernel takes the most memory.
-    let largest = scene(kernel, "as-printed")?.into();
-    expect(rod, ("--cells", args.cells), &largest, Keeps::default())?;
+    let largest = scene(kernel, impact.of_paper)?.into();
+    expect(case, ("--cells", n), &largest, Keeps::default())?;
     let run = |(scheme, variant): (Scheme, &str), threads: usize| {
-        let (label, cells) = (scheme.label(), counted(args.cells, ["cell", "cells"]));
-        say(&format!("long rod, {cells} across, {label}, threads: {threads} ..."));
+        let (label, cells) = (scheme.label(), counted(n, ["cell", "cells"]));
+        say(&format!("{}, {cells}, {label}, threads: {threads} ...", case.id()));
         Ok::<_, Failure>(measure(&label, &scene(scheme, variant)?, stretch, threads)?)
     };
     let default = (Scheme::preset(Preset::Default), "");
     // One after the other, so that the machine is the same.
     let (one, more) = (run(default, 1)?, run(default, args.threads)?);
-    let paper = run((Scheme::preset(Preset::Paper), "as-printed"), 1)?;
-    let kernel = run((kernel, "as-printed"), 1)?;
+    let paper = run((Scheme::preset(Preset::Paper), impact.of_paper), 1)?;
+    let kernel = run((kernel, impact.of_paper), 1)?;
     let paces = [one, paper, kernel];
     let tables = [pace::work(&paces), pace::phases(&paces), pace::machine(&paces[0], &more)];
     for table in &tables {
         print(&format!("\n{}", grid(table)))?;
         if let Some(out) = &args.out {
-            write_atomic(&out.join(format!("{}.csv", table.id)), report::csv(table).as_bytes())?;
+            let file = format!("{}-{}.csv", case.id(), table.id);
+            write_atomic(&out.join(file), report::csv(table).as_bytes())?;
         }
     }
     if let Some(out) = &args.out {
         let svg = plots::render_svg(&pace::figure(&paces)).map_err(Failure::usage)?;
-        write_atomic(&out.join("pace.svg"), svg.as_bytes())?;
+        write_atomic(&out.join(format!("{}-pace.svg", case.id())), svg.as_bytes())?;
     }
     Ok(())
 }

@@ -83,6 +83,10 @@ fn whole(case: &dyn Case) -> String {
     if !named.is_empty() {
         text += &wrapped(&format!("Variants: {}", named.join(", ")), 0);
     }
+    for choice in case.choices() {
+        let (name, values) = (choice.name, choice.values.join(", "));
+        text += &wrapped(&format!("--{name}: {values}; the first if none is given"), 0);
+    }
     let kind = match scene {
         AnyScene::Line(_) => "along a line",
         AnyScene::Space(_) => "in three dimensions",

@@ -27,10 +27,8 @@ use crate::suite::{command_of, scene_of};
 /// Runs a case as the arguments say.
 pub(super) fn run(args: &RunArgs) -> Result<u8, Failure> {
     let case = find(&args.case)?;
-    if !case.variants().contains(&args.variant.as_str()) {
-        return Err(no_variant(case, &args.variant));
-    }
-    let (request, bounds) = request(case, args)?;
+    let variant = variant(case, args)?;
+    let (request, bounds) = request(case, &variant, args)?;
     let scene = request.scene.clone();
     let (options, outlook) = match &scene {
         Some(AnyScene::Space(scene)) => options(scene, args, &request)?,
@@ -231,13 +229,51 @@ fn no_variant(case: &dyn Case, wanted: &str) -> Failure {
     Failure::usage(format!("`{}` has no variant `{wanted}`{hint} (it has: {all})", case.id()))
 }
 
+/// The variant of a run: that named, or the one that options of the case choose.
+fn variant(case: &dyn Case, args: &RunArgs) -> Result<String, Failure> {
+    let given = [("angle", &args.angle), ("eos", &args.eos)];
+    let mut parts = Vec::new();
+    for (name, value) in given.into_iter().filter_map(|(name, value)| Some((name, value.as_ref()?)))
+    {
+        let Some(choice) = case.choices().iter().find(|choice| choice.name == name) else {
+            return Err(no_choice(case, name));
+        };
+        if !choice.values.contains(&value.as_str()) {
+            let hint = did_you_mean(value, choice.values.iter().copied());
+            let all = choice.values.join(", ");
+            let id = case.id();
+            let message = format!("`{id}` has no --{name} {value}{hint} (it has: {all})");
+            return Err(Failure::usage(message));
+        }
+        parts.extend(choice.named(value));
+    }
+    let variant = if parts.is_empty() { args.variant.clone() } else { parts.join("_") };
+    if case.variants().contains(&variant.as_str()) {
+        Ok(variant)
+    } else {
+        Err(no_variant(case, &variant))
+    }
+}
+
+/// An option that the case does not have.
+fn no_choice(case: &dyn Case, name: &str) -> Failure {
+    let has = |case: &&dyn Case| case.choices().iter().any(|choice| choice.name == name);
+    let others: Vec<&str> = cases::ALL.iter().copied().filter(has).map(Case::id).collect();
+    let message = format!("`{}` has no --{name}; {} has", case.id(), others.join(", "));
+    Failure::usage(message)
+}
+
 /// Variants that are named, which the plain one is not.
 pub(super) fn named_variants(case: &dyn Case) -> Vec<&'static str> {
     case.variants().iter().copied().filter(|variant| !variant.is_empty()).collect()
 }
 
 /// The run that the arguments ask for, and what is wanted of its numbers.
-fn request<'a>(case: &'a dyn Case, args: &RunArgs) -> Result<(Request, Bounds<'a>), Failure> {
+fn request<'a>(
+    case: &'a dyn Case,
+    variant: &str,
+    args: &RunArgs,
+) -> Result<(Request, Bounds<'a>), Failure> {
     let preset = Preset::from(args.preset);
     let scheme = if args.godunov {
         Scheme::Godunov
@@ -246,7 +282,7 @@ fn request<'a>(case: &'a dyn Case, args: &RunArgs) -> Result<(Request, Bounds<'a
         Scheme::Particles { preset, density }
     };
     let n = args.n.unwrap_or_else(|| case.default_size());
-    let mut key = RunKey::new(case.id(), scheme, n).variant(&args.variant);
+    let mut key = RunKey::new(case.id(), scheme, n).variant(variant);
     let own = key.clone();
     let plain = scene_of(case, &key);
     let units = plain.as_ref().map_or(Units::None, AnyScene::units);

@@ -135,7 +135,7 @@ fn kinds_table(verdicts: &[Verdict]) -> Table {
     ];
     let caption = "Claims by kind. Conservation is the part of verification that says of a run that energy and \
                    momentum stay to round-off, and nothing of its accuracy. Validation needs an experiment: the \
-                   long rod and the Taylor impacts have one.";
+                   long rod and the Taylor impacts have one; the plate of carbon-carbon has an equation fitted to tests.";
     Table { id: "kinds".into(), caption: caption.into(), columns, rows }
 }
 

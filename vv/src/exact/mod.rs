@@ -14,6 +14,7 @@ pub mod kidder;
 pub mod lattice;
 pub mod noh;
 mod numerics;
+pub mod penetration;
 pub mod piston;
 pub mod release;
 pub mod riemann;

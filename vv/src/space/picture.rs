@@ -11,12 +11,14 @@ use crate::paint::{
 };
 
 /// What decides the colours.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Shown {
     /// The body.
     Body,
     /// The temperature, between two values at the ends of the colour bar or those of the state.
     Temperature(Option<(f64, f64)>),
+    /// The effective plastic strain of elements, likewise; loose particles have none.
+    PlasticStrain(Option<(f64, f64)>),
 }
 
 /// A picture of a state.
@@ -30,6 +32,8 @@ pub struct Shot {
     pub section: Option<Plane>,
     /// How to colour.
     pub shown: Shown,
+    /// Whether particles that no element holds are painted.
+    pub loose: bool,
 }
 
 /// Looks at a body that comes along x and y, and at the plate across y that it meets, from above and
@@ -81,19 +85,24 @@ pub fn frame(simulation: &Simulation, share: f64) -> [[f64; 3]; 2] {
 }
 
 /// Live elements as hexahedra, particles without live elements as spheres as wide as a contact is
-/// long. The value of a mark is the temperature: of a particle, or the mean of an element by mass.
+/// long. The value of a mark is the plastic strain of an element if that is shown, otherwise the
+/// temperature: of a particle, or the mean of an element by mass.
 #[must_use]
-pub fn model(simulation: &Simulation) -> Model {
+pub fn model(simulation: &Simulation, shown: Shown) -> Model {
     let particles: Vec<Particle> = simulation.all_particles().collect();
     let at = places(&particles);
     let particle = |id: u32| &particles[at[id as usize] as usize];
     let elements = simulation.all_elements().filter(|element| element.live);
-    let hexahedron = |element: Element| {
+    let strained = matches!(shown, Shown::PlasticStrain(_));
+    let mean = |element: &Element| {
         let corners: f64 = element.corners.iter().map(|&id| particle(id).theta).sum();
-        let mean = 0.5 * particle(element.centre).theta + 0.0625 * corners;
+        0.5 * particle(element.centre).theta + 0.0625 * corners
+    };
+    let hexahedron = |element: Element| {
+        let value = if strained { element.strain } else { mean(&element) };
         Hexahedron {
             nodes: element.ring().map(|id| at[id as usize]),
-            mark: Mark { value: mean as f32, class: class(element.body) },
+            mark: Mark { value: value as f32, class: class(element.body) },
         }
     };
     let hexahedra = elements.map(hexahedron).collect();
@@ -102,7 +111,10 @@ pub fn model(simulation: &Simulation) -> Model {
     let sphere = |p: &Particle| Sphere {
         centre: p.position,
         radius: radii[p.body],
-        mark: Mark { value: p.theta as f32, class: class(p.body) },
+        mark: Mark {
+            value: if strained { f32::NAN } else { p.theta as f32 },
+            class: class(p.body),
+        },
     };
     let spheres = particles.iter().filter(|p| p.held == 0.0).map(sphere).collect();
     let points = particles.iter().map(|p| p.position).collect();
@@ -131,6 +143,12 @@ pub fn shoot(
             range,
             map: ColourMap::Heat,
         }),
+        Shown::PlasticStrain(range) => Colouring::Field(Field {
+            name: "effective plastic strain".to_owned(),
+            unit: String::new(),
+            range,
+            map: ColourMap::Viridis,
+        }),
     };
     let unit = match scene.units.label(Dimension::Length) {
         "" => "units of length",
@@ -145,7 +163,10 @@ pub fn shoot(
         ..Picture::new(shot.camera, colouring)
     };
     let dark = Picture { theme: Theme::Dark, ..light.clone() };
-    let mut model = model(simulation);
+    let mut model = model(simulation, shot.shown);
+    if !shot.loose {
+        model.spheres.clear();
+    }
     if let Some([low, high]) = shot.camera.frame {
         // None is cut in half by the edge of the picture.
         let inside = |x: &[f64; 3]| (0..3).all(|d| low[d] <= x[d] && x[d] <= high[d]);

@@ -110,6 +110,25 @@ fn overrides_with_the_value_of_the_scene_are_told() {
     assert!(two.out.contains(", changed by --set cfl=0.123\n"), "{}", two.out);
 }
 
+/// Options of a case choose its variant, and the plain one where they say what that has.
+#[test]
+fn options_of_a_case_choose_its_variant() {
+    for (options, variant) in [
+        (&["--angle", "45", "--eos", "rcc_baseline"][..], ""),
+        (&["--angle", "0"], "angle-0"),
+        (&["--eos", "rcc_stiff", "--angle", "60"], "angle-60_eos-rcc_stiff"),
+    ] {
+        let run = ["run", "rcc-plate", "--n", "2", "--stop", "0.01us", "--json"];
+        let said = said(folder().path(), &[&run[..], options].concat());
+        let value: Value = serde_json::from_str(&said.out).expect("JSON");
+        assert_eq!(value["variant"], variant);
+        let command = value["provenance"]["command"].as_str().expect("a command");
+        let named = format!(" --variant {variant} ");
+        assert_eq!(command.contains(&named), !variant.is_empty(), "{command}");
+        assert!(value["norms"]["perforation_time_us"].is_null(), "{}", said.out);
+    }
+}
+
 /// The record says which density ran, whichever option chose it, and a case named twice runs once.
 #[test]
 fn records_say_what_ran() {
@@ -170,6 +189,12 @@ fn wrong_input_is_refused() {
         refusal(&["run", "noh", "--variant", "suport-1.5"]),
         refusal(&["run", "long-rod", "--variant", "widde"]),
         refusal(&["run", "sedov", "--variant", "-1"]),
+        refusal(&["run", "long-rod", "--angle", "30"]),
+        refusal(&["run", "noh", "--eos", "rcc_soft"]),
+        refusal(&["run", "rcc-plate", "--angle", "20"]),
+        refusal(&["run", "rcc-plate", "--angle", "-30"]),
+        refusal(&["run", "rcc-plate", "--eos", "rcc_sotf"]),
+        refusal(&["run", "rcc-plate", "--angle", "30", "--variant", "wide"]),
         refusal(&["run", "noh", "--threads", "0"]),
         refusal(&["run", "noh", "--threads", "-1"]),
         refusal(&["run", "noh", "--threads", "99999"]),
@@ -476,11 +501,13 @@ fn bench_measures_the_rod() {
         assert!(rows.count() >= 2, "{scheme}: {}", said.out);
     }
     let read = |name: &str| std::fs::read_to_string(folder.path().join("out").join(name));
-    let work = read("pace-work.csv").expect("a table");
+    let work = read("long-rod-pace-work.csv").expect("a table");
     let head = work.lines().next().expect("a head");
     assert!(head.contains("1e6 updates/s") && head.contains("pairs acting"), "{head}");
     assert_eq!(work.lines().count(), 1 + 3, "{work}");
-    for name in ["pace-phases.csv", "pace-machine.csv", "pace.svg"] {
+    for name in
+        ["pace-phases.csv", "pace-machine.csv", "pace.svg"].map(|name| format!("long-rod-{name}"))
+    {
         assert!(!read(name).expect("a file").is_empty(), "{name}");
     }
 }

@@ -46,14 +46,15 @@ pub fn record(key: &RunKey) -> RunRecord {
 /// Cells of a scene in space that is run to its end.
 const FEW: usize = 600;
 
-/// Record of a run in space, made once in all tests: of its first tenth where it is long, and of a short
-/// rod instead of the long one.
+/// Record of a run in space, made once in all tests: of its first tenth where it is long, less of the
+/// plates with their many variants, and of a short rod instead of the long one.
 pub fn beginning(key: &RunKey) -> RunRecord {
     once(&BEGINNINGS, key, |scene| {
         let mut scene = if key.case == "long-rod" { cut_short(scene) } else { scene };
         let bodies = scene.space().map_or(&[][..], |scene| &scene.bodies);
         if bodies.iter().map(|body| body.cells.iter().product::<usize>()).sum::<usize>() > FEW {
-            scene.set_stop_time(0.1 * scene.stop_time());
+            let part = if key.case.ends_with("-plate") { 0.02 } else { 0.1 };
+            scene.set_stop_time(part * scene.stop_time());
         }
         scene
     })

@@ -190,9 +190,9 @@ fn histories_continue_where_the_run_does() {
 fn pictures_show_elements_and_debris() {
     let scene = cubes();
     let mut simulation = after(&scene, 0);
-    assert_eq!(model(&simulation).hexahedra.len(), 54);
+    assert_eq!(model(&simulation, Shown::Body).hexahedra.len(), 54);
     simulation.advance_to(0.4).unwrap();
-    let (dead, shown) = (simulation.failed().1, model(&simulation));
+    let (dead, shown) = (simulation.failed().1, model(&simulation, Shown::Body));
     assert_eq!(shown.hexahedra.len(), 54 - dead);
     let loose = simulation.all_particles().filter(|p| p.held == 0.0).count();
     assert!(shown.spheres.len() == loose && loose >= dead);
@@ -203,6 +203,7 @@ fn pictures_show_elements_and_debris() {
         camera: from_the_side(),
         section: None,
         shown: Shown::Body,
+        loose: true,
     };
     let cut = Shot {
         camera: onto_the_section(),
@@ -210,7 +211,8 @@ fn pictures_show_elements_and_debris() {
         shown: Shown::Temperature(None),
         ..by_body.clone()
     };
-    for shot in [by_body, cut] {
+    let strained = Shot { shown: Shown::PlasticStrain(None), loose: false, ..cut.clone() };
+    for shot in [by_body, cut, strained] {
         let files = shoot(&simulation, &scene, &shot).unwrap();
         assert_ne!(files[0], files[1]);
         for file in files {

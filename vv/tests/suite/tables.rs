@@ -10,6 +10,7 @@ use whipple_vv::exact::hugoniot::{Hugoniot, PlanarImpact};
 use whipple_vv::exact::kidder::{Kidder, Setup};
 use whipple_vv::exact::lattice::{Gate, Path, integrate};
 use whipple_vv::exact::noh::Noh;
+use whipple_vv::exact::penetration::Penetration;
 use whipple_vv::exact::piston::{Piston, Structure};
 use whipple_vv::exact::strength::{Elasticity, Strength, YieldReading};
 use whipple_vv::exact::{Gas, Geometry};
@@ -128,6 +129,25 @@ fn planar_impacts() {
         }
     }
     worst.within(1e-6);
+}
+
+#[test]
+fn spheres_in_carbon_carbon() {
+    let mut worst = Worst::default();
+    for row in rows(&read("rcc_penetration_prediction.csv")) {
+        let get = |name: &str| row.get(name);
+        let densities = [get("rho_p_g_cm3"), get("rho_t_g_cm3")];
+        let (diameter, velocity, angle) = (get("d_cm"), get("v_km_s"), get("angle_deg"));
+        let sphere = Penetration::new(diameter, densities, velocity, angle).unwrap();
+        worst.see("depth", sphere.depth(), get("penetration_depth_cm"));
+        worst.see("perforated", sphere.not_perforated(), get("thickness_no_perforation_cm"));
+        worst.see("spalled", sphere.not_spalled(), get("thickness_no_spall_cm"));
+        match row.text("through_hole_diameter_cm").as_str() {
+            "" => assert!(sphere.hole() <= 0.0),
+            hole => worst.see("hole", sphere.hole(), hole.parse().unwrap()),
+        }
+    }
+    worst.within(1e-5);
 }
 
 #[test]

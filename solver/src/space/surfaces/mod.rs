@@ -178,7 +178,8 @@ impl Surfaces {
 
     /// Finds the springs anew. One that has jumped to a much nearer face, or appears, begins where it
     /// is, so that no energy comes from nothing; the energy of one that jumped or went is heat, which
-    /// is given to its particles and returned.
+    /// is given to its particles and returned. So is what one loses whose face has died, and that ends on
+    /// another, farther away.
     fn renew(
         &mut self,
         (mesh, contacts): (&Mesh, &Contacts),
@@ -198,15 +199,18 @@ impl Surfaces {
             }
             let pressed = old.distance < old.stand;
             let seen = Spring::again(&old, mesh, contacts);
+            let mut kept = 0.0;
             if let Some(spring) = same {
-                let distance = seen.as_ref().map(|(_, seen)| seen.past.distance);
-                if distance.is_some_and(|distance| spring.distance >= JUMP * distance) {
-                    continue;
+                let slid = |distance: f64| spring.distance >= JUMP * distance;
+                match &seen {
+                    Some((_, seen)) if slid(seen.past.distance) => {
+                        kept = seen.energy_as(spring, mesh);
+                    }
+                    _ => begin(spring),
                 }
-                begin(spring);
             }
             if let Some((start, seen)) = seen.filter(|_| pressed) {
-                let energy = seen.energy(mesh);
+                let energy = (seen.energy(mesh) - kept).max(0.0);
                 let shares = seen.shares(contacts, &start);
                 shares.for_each(|(i, share)| give(i, 0.5 * share.abs() * energy));
                 heat += energy;

@@ -178,6 +178,11 @@ impl Spring {
         self.past.area * self.tension(mesh)
     }
 
+    /// What its area would hold at the distance of another, beginning where that does.
+    pub(super) fn energy_as(&self, other: &Past, mesh: &Mesh) -> f64 {
+        self.past.area * self.stiffness(mesh) * Law::energy(other.distance / other.stand)
+    }
+
     /// Energy over area.
     pub(super) fn tension(&self, mesh: &Mesh) -> f64 {
         self.stiffness(mesh) * Law::energy(self.past.distance / self.past.stand)

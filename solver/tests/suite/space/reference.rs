@@ -1033,14 +1033,17 @@ impl Plain {
         for old in old {
             let mut was = self.spring_on(&old.own, old.element, old.face.map(|(i, _)| i));
             let now = self.springs.iter().position(|s| same(s, &old));
+            let mut kept = 0.0;
             if let Some(k) =
                 now.filter(|&k| self.springs[k].z * self.springs[k].stand >= 0.8 * was.z)
             {
                 slid[k] = true;
-            } else if old.z < 1.0 {
+                kept = old.area * self.springs[k].energy();
+            }
+            if old.z < 1.0 {
                 (was.stand, was.area) = (old.stand, old.area);
                 was.z /= was.stand;
-                let energy = was.area * was.energy();
+                let energy = (was.area * was.energy() - kept).max(0.0);
                 let parts = was.parts().into_iter();
                 heat.extend(parts.map(|(i, share)| (i, 0.5 * share.abs() * energy)));
             }

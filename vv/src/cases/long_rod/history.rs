@@ -3,11 +3,8 @@
 use whipple_solver::space::Simulation;
 use whipple_solver::space::ledger::Balance;
 
-use super::residual;
+use crate::cases::parts::{kilojoules, pieces};
 use crate::record::Series;
-
-/// Joules of a Mbar cm^3, in thousands.
-const KILOJOULES: f64 = 100.0;
 
 /// What is read off a state, in this order.
 const HISTORY: [&str; 13] = [
@@ -28,18 +25,19 @@ const HISTORY: [&str; 13] = [
 
 /// The numbers of [`HISTORY`] of a state.
 pub(super) fn look(solver: &Simulation, balance: &Balance) -> Vec<f64> {
-    let left = residual::largest(solver, 0);
+    let left = pieces::largest(solver, 0);
     let now = &balance.now;
+    let [kinetic, internal, shear, tension, residual] = kilojoules(balance);
     vec![
         solver.time(),
         left.length,
         10.0 * left.velocity,
         left.mass,
-        KILOJOULES * now.kinetic,
-        KILOJOULES * now.internal,
-        KILOJOULES * now.shear,
-        KILOJOULES * now.tension,
-        KILOJOULES * balance.residual(),
+        kinetic,
+        internal,
+        shear,
+        tension,
+        residual,
         now.momentum[0],
         now.momentum[1],
         solver.failed().0 as f64,

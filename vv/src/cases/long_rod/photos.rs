@@ -77,6 +77,10 @@ pub(super) fn take(driver: &mut SpaceDriver<'_>, scene: &Scene, time: f64) -> Re
         };
         // Before the impact there are no far particles.
         camera.frame = (time > 0.0).then(|| frame(simulation, wish.outside));
-        shoot(simulation, scene, &Shot { title: wish.title.into(), camera, section, shown })
+        shoot(
+            simulation,
+            scene,
+            &Shot { title: wish.title.into(), camera, section, shown, loose: true },
+        )
     })
 }

@@ -2,12 +2,11 @@
 
 use whipple_solver::method::Preset;
 use whipple_solver::space::method::{Method, YieldNorm};
-use whipple_solver::space::scene::{
-    Body, EosData, Failure, Flow, GammaLaw, Material, Scene, Shape, Strength, Turn,
-};
+use whipple_solver::space::scene::{Body, Material, Scene, Shape, Turn};
 use whipple_solver::units::Units;
 
 use crate::cases::parts::control;
+use crate::cases::parts::metals::{Ductile, Metal, STEEL, TUNGSTEN};
 
 pub(super) const ID: &str = "long-rod";
 /// Diameter and length of the rod, thickness of the plate, in cm: the paper's problem.
@@ -90,27 +89,12 @@ fn strength(variant: &str) -> [Hardening; 2] {
     }
 }
 
-/// A metal of Table 4: density, `c0`, `s`, specific heat and shear modulus; equations of state by
-/// gap G23.
-fn metal(name: &str, constants: [f64; 5], hardening: Hardening) -> Material {
-    let [density, c0, s, c_v, shear_modulus] = constants;
+/// A metal of Table 4 with the equation of state of gap G23. No spall strength is known for the steel; 1.9
+/// GPa of another tungsten alloy (`references/materials.toml`) is not carried over.
+fn metal(metal: Metal, shear_modulus: f64, hardening: Hardening) -> Material {
     let [y_0, kappa, alpha, melt] = hardening;
-    let law = GammaLaw::ConstantProduct;
-    let flow = Flow::Hardening { y_0, kappa, alpha, eta: 1.0, reference: 300.0, melt };
-    Material {
-        name: name.into(),
-        density,
-        eos: EosData::MieGruneisen { c0, s, gamma_0: 1.67, law, c_v, theta_0: 300.0 },
-        strength: Some(Strength { shear_modulus, flow: Some(flow) }),
-        // None is known for the steel; 1.9 GPa of another tungsten alloy (`references/materials.toml`) is
-        // not carried over.
-        failure: Failure {
-            plastic_strain: Some(1.0),
-            melt: Some(melt),
-            compression: 0.3,
-            spall: None,
-        },
-    }
+    let hardening = [y_0, kappa, alpha, 1.0, melt];
+    Ductile { metal, shear_modulus, hardening, strain: 1.0, spall: None }.material()
 }
 
 /// Choices of a variant.
@@ -176,10 +160,7 @@ pub(super) fn scene(preset: Preset, variant: &str, n: usize) -> Scene {
         stop_time: STOP,
         method: varied(preset.space(), variant),
         walls: Vec::new(),
-        materials: vec![
-            metal("tungsten alloy", [17.6, 0.403, 1.237, 0.143e-5, 1.45], rod),
-            metal("steel", [7.87, 0.4578, 1.33, 0.448e-5, 0.801], plate),
-        ],
+        materials: vec![metal(TUNGSTEN, 1.45, rod), metal(STEEL, 0.801, plate)],
         bodies: bodies(n, if variant == WIDE { WIDE_PLATE } else { PLATE }),
     }
 }

@@ -5,13 +5,11 @@ use whipple_solver::method::Preset;
 use super::problem::{AS_PRINTED, EXCHANGED, SIZES, STEPS, VARIANTS, WIDE, words};
 use super::published::{KNOWN, Known, PARTICLES};
 use super::{kernel_key, key, varied_key};
+use crate::cases::parts::studies::{FORMAL_ORDER, Judged, band, number, percent, range};
 use crate::convergence::{Behaviour, GridStudy, Level, OrderCheck, grid_study};
 use crate::record::{Records, RunKey, RunRecord};
 use crate::report::{Cell, Column, Table, sig};
-use crate::validation::{Comparison, EXPANSION, combined, of_band, of_range};
-
-/// The order at best: shocks and failure are spread over a number of cells.
-const FORMAL_ORDER: f64 = 1.0;
+use crate::validation::{EXPANSION, combined, of_band, of_range};
 
 /// Who computed the rod at three sizes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -78,19 +76,6 @@ fn norm(records: &Records, key: &RunKey, known: &Known) -> Option<f64> {
     records.get(key)?.norms.get(known.norm).copied()
 }
 
-fn number(value: Option<f64>, digits: usize) -> Cell {
-    value.map_or_else(|| "–".into(), |value| Cell::number(value, digits))
-}
-
-/// A number over another, less one, in percent.
-fn percent(value: Option<f64>, of: Option<f64>) -> Cell {
-    number(value.zip(of).map(|(value, of)| 100.0 * (value / of - 1.0)), 2)
-}
-
-fn range([low, high]: [f64; 2], digits: usize) -> String {
-    format!("{} to {}", sig(low, digits), sig(high, digits))
-}
-
 /// Table 5 beside ours, and the experiment beside both.
 fn table_5(records: &Records) -> Table {
     let mut columns =
@@ -145,11 +130,6 @@ fn against([low, high]: [f64; 2], value: f64) -> &'static str {
     } else {
         "within"
     }
-}
-
-/// The band to quote; equal numbers show none, least of all numbers that were rounded.
-fn band(study: &GridStudy) -> Option<f64> {
-    (study.behaviour != Behaviour::Flat).then(|| study.band())
 }
 
 /// What can be said of the order, in words.
@@ -251,46 +231,20 @@ fn validation(records: &Records) -> Table {
                 Who::Table5 => None,
                 Who::Ours(preset) => of_inputs(preset, known, records),
             };
-            let error = finest.map(|value| value - known.measured);
-            let whole = finest.zip(numerical).zip(input).map(|((simulated, numerical), input)| {
-                let (measured, data) = (known.measured, known.uncertainty);
-                Comparison { simulated, measured, numerical, input, data }
-            });
-            let says = match (whole, numerical) {
-                (Some(whole), _) if whole.resolves() => "an error of the model",
-                (Some(_), _) => "no error of the model is resolved",
-                (None, Some(_)) => "not to be judged: u_input is not known",
-                (None, None) => "not to be judged: u_num is not known",
+            let judged = Judged {
+                simulated: finest,
+                measured: known.measured,
+                numerical,
+                input,
+                data: known.uncertainty,
             };
-            rows.push(vec![
-                format!("{}, {}", known.name, known.unit).into(),
-                who.name().into(),
-                number(finest, 4),
-                number(Some(known.measured), 4),
-                number(error, 2),
-                number(numerical, 2),
-                number(input, 2),
-                number(Some(known.uncertainty), 2),
-                number(whole.map(|w| w.uncertainty()), 2),
-                whole.map_or_else(|| "–".into(), |w| range(w.model_error(), 2)).into(),
-                says.into(),
-            ]);
+            let mut row = vec![format!("{}, {}", known.name, known.unit).into(), who.name().into()];
+            row.extend(judged.cells());
+            rows.push(row);
         }
     }
-    let plain = |name: &str| Column::number(name, "");
-    let columns = vec![
-        Column::text("residual"),
-        Column::text("by whom"),
-        plain("S"),
-        plain("D"),
-        plain("E = S - D"),
-        plain("u_num"),
-        plain("u_input"),
-        plain("u_D"),
-        plain("u_val"),
-        Column::text("error of the model"),
-        Column::text("shows"),
-    ];
+    let names = ["residual", "by whom"].map(Column::text);
+    let columns = names.into_iter().chain(Judged::columns()).collect();
     Table {
         id: "long-rod-validation".into(),
         caption: format!(

@@ -1,6 +1,6 @@
 //! Metals with the constants of `references/materials.toml`.
 
-use whipple_solver::space::scene::{EosData, Failure, GammaLaw, Material};
+use whipple_solver::space::scene::{EosData, Failure, Flow, GammaLaw, Material, Strength};
 
 use crate::exact::InputError;
 use crate::exact::gruneisen::MieGruneisen;
@@ -54,5 +54,36 @@ impl Metal {
     /// Its equation of state.
     pub(in crate::cases) fn gruneisen(&self) -> Result<MieGruneisen, InputError> {
         MieGruneisen::constant_product(self.hugoniot()?, self.constants[3])
+    }
+}
+
+/// A material with strength by Eq. (44) that fails.
+pub(in crate::cases) struct Ductile {
+    pub(in crate::cases) metal: Metal,
+    pub(in crate::cases) shear_modulus: f64,
+    /// `Y_o`, `kappa`, `alpha`, `eta` and melt temperature of Eq. (44).
+    pub(in crate::cases) hardening: [f64; 5],
+    /// Plastic strain at which it fails.
+    pub(in crate::cases) strain: f64,
+    /// Tensile strength.
+    pub(in crate::cases) spall: Option<f64>,
+}
+
+impl Ductile {
+    /// With softening from 300 K on (gap G6), and elements that fail at the melt temperature and at 0.3
+    /// of their volume (gap G21).
+    pub(in crate::cases) fn material(&self) -> Material {
+        let [y_0, kappa, alpha, eta, melt] = self.hardening;
+        let flow = Flow::Hardening { y_0, kappa, alpha, eta, reference: 300.0, melt };
+        Material {
+            strength: Some(Strength { shear_modulus: self.shear_modulus, flow: Some(flow) }),
+            failure: Failure {
+                plastic_strain: Some(self.strain),
+                melt: Some(melt),
+                compression: 0.3,
+                spall: self.spall,
+            },
+            ..self.metal.material()
+        }
     }
 }

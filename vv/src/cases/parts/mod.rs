@@ -1,14 +1,20 @@
 //! What cases in space share: metals, walls, bodies, averages over planes, initial motions.
 
+pub(super) mod cloud;
 pub(super) mod column;
 pub(super) mod control;
 pub(super) mod discs;
 pub(super) mod fit;
+pub(super) mod hole;
+pub(super) mod impact;
 pub(super) mod metals;
 pub(super) mod modes;
 pub(super) mod motion;
+pub(super) mod perforation;
+pub(super) mod pieces;
 pub(super) mod planes;
 pub(super) mod shells;
+pub(super) mod studies;
 
 use std::collections::BTreeMap;
 
@@ -89,6 +95,16 @@ pub(super) fn gas_scene(
         materials: vec![gas(adiabatic_index, c_v)],
         bodies: vec![body],
     }
+}
+
+/// Kilojoules of a Mbar cm^3.
+const KILOJOULES: f64 = 100.0;
+
+/// Energies of a balance in g, cm, us as kJ: kinetic, internal, of shear, of tension, and the residual of
+/// the elements.
+pub(super) fn kilojoules(balance: &Balance) -> [f64; 5] {
+    let now = &balance.now;
+    [now.kinetic, now.internal, now.shear, now.tension, balance.residual()].map(|e| KILOJOULES * e)
 }
 
 /// Mean and root mean square about it.
