@@ -228,7 +228,7 @@ struct BenchArgs {
         value_parser = whole(2..=10_000_000)
     )]
     n: usize,
-    /// Density: A/B/B/A rounds
+    /// Density, rivals: A/B/B/A rounds
     #[arg(long, default_value_t = 10, allow_hyphen_values = true, value_parser = whole(1..=1000))]
     rounds: usize,
     /// Impacts: size, as `run --n`; that of the case if none is given
@@ -264,6 +264,8 @@ enum Bench {
     Plate,
     /// The same of the sphere on aluminium
     Sphere,
+    /// Density of a kernel against the paper's on carbon-carbon, its Table 7; not run unless it is named
+    Rivals,
 }
 
 #[derive(Debug, clap::Args)]

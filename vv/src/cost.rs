@@ -156,7 +156,9 @@ fn turn(solver: &mut dyn Solver, steps: usize) -> Result<f64, StepError> {
     Ok(start.elapsed().as_secs_f64())
 }
 
-fn median(values: &[f64]) -> f64 {
+/// Median of some values.
+#[must_use]
+pub fn median(values: &[f64]) -> f64 {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);
     let middle = sorted.len() / 2;

@@ -5,6 +5,7 @@
 //! the gain by threads is measured on the wall.
 
 mod bandwidth;
+pub mod rivals;
 mod tables;
 
 use std::time::{Duration, Instant};

@@ -6,8 +6,10 @@
 pub enum Phase {
     /// Forces of the elements: the first pass through memory.
     Elements,
-    /// Forces and work of contacts between loose particles.
+    /// Forces of contacts between loose particles, and in a single pass their work.
     Contacts,
+    /// Work of contacts over the mean velocities: the second pass of the compatible integrator.
+    Work,
     /// Forces and work of the springs between surfaces.
     Springs,
     /// Kick, work of the elements, response and drift: the second pass through memory.
@@ -22,9 +24,10 @@ pub enum Phase {
 
 impl Phase {
     /// All phases.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Elements,
         Self::Contacts,
+        Self::Work,
         Self::Springs,
         Self::Motion,
         Self::List,
@@ -38,6 +41,7 @@ impl Phase {
         match self {
             Self::Elements => "elements",
             Self::Contacts => "contacts",
+            Self::Work => "work",
             Self::Springs => "springs",
             Self::Motion => "motion",
             Self::List => "list",

@@ -411,8 +411,8 @@ impl Method {
             let wanted = "it must be from 1 to 1.3: beyond, contacts reach through neighbours";
             return Err(SceneError::new("method.contact_reach", self.contact_reach, wanted));
         }
-        if !(1.2..=2.0).contains(&self.kernel_support) {
-            let wanted = "it must be from 1.2 to 2: the nearest shells, and no more than two cells";
+        if !(1.1..=2.0).contains(&self.kernel_support) {
+            let wanted = "it must be from 1.1 to 2: the nearest shell, and no more than two cells";
             return Err(SceneError::new("method.kernel_support", self.kernel_support, wanted));
         }
         match self.release {

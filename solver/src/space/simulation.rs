@@ -415,7 +415,7 @@ impl Simulation {
             let v = [state.vx[i], state.vy[i], state.vz[i]];
             std::array::from_fn(|d| v[d] + half / mesh.mass(i) * force[d][i])
         };
-        enter(Phase::Contacts);
+        enter(Phase::Work);
         self.contacts.work((mesh, state), mean, self.kick, (&mut sums.rho_rate, &mut sums.heat));
         enter(Phase::Springs);
         let of = (mesh, &self.contacts);

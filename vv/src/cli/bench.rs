@@ -7,6 +7,7 @@ use super::{Bench, BenchArgs, Failure, NUMERICAL_FAILURE, print, say};
 use crate::cost::{Comparison, Contender, CostError, EQUAL_LIST, compare};
 use crate::files::{ensure_writable_dir, write_atomic};
 use crate::memory::Keeps;
+use crate::pace::rivals::{self, Contest, Sight};
 use crate::pace::{self, PaceError, Stretch, measure};
 use crate::plots;
 use crate::record::{RunKey, Scheme};
@@ -46,7 +47,71 @@ pub(super) fn bench(args: &BenchArgs) -> Result<u8, Failure> {
             pace_of(&impact, args)?;
         }
     }
+    if args.what.contains(&Bench::Rivals) {
+        rivals(args)?;
+    }
     Ok(0)
+}
+
+/// Time, in us, in the middle of the impact, from which rivals are compared.
+const MIDDLE: f64 = 2.0;
+
+/// Steps of a turn of rivals, over a million particles.
+const TURN: usize = 600_000;
+
+/// What the density of a kernel costs on carbon-carbon: the paper's Table 7.
+fn rivals(args: &BenchArgs) -> Result<(), Failure> {
+    let case = super::run::find("rcc-plate")?;
+    let sizes = args.cells.map_or_else(|| vec![4, 6, 8], |n| vec![n]);
+    let kernel = Scheme::Particles { preset: Preset::Paper, density: Density::Kernel };
+    let (mut outcomes, mut free) = (Vec::new(), Vec::new());
+    for n in sizes {
+        let scene = scene_of(case, &RunKey::new(case.id(), kernel, n));
+        let Some(scene) = scene.and_then(|scene| scene.space().cloned()) else {
+            return Err(Failure::usage("`rcc-plate` is in space"));
+        };
+        expect(case, ("--cells", n), &scene.clone().into(), Keeps::default())?;
+        for integrator in [Integrator::SinglePass, Integrator::Compatible] {
+            for sight in Sight::ALL {
+                say(&format!("{}, {n} cells, {integrator:?}, {} ...", case.id(), sight.name()));
+                let particles = whipple_solver::space::Simulation::new(&scene)
+                    .map_err(Failure::usage)?
+                    .particles();
+                let steps = (TURN / particles).max(2) as u64;
+                let contest =
+                    Contest { integrator, sight, from: MIDDLE, steps, rounds: args.rounds };
+                outcomes.push(rivals::compare(&scene, contest)?);
+                if args.whole {
+                    free.push(rivals::run_free(&scene, contest)?);
+                }
+            }
+        }
+    }
+    let mut tables = vec![rivals::ratios(&outcomes), rivals::phases(&outcomes)];
+    if args.whole {
+        tables.push(rivals::whole(&free));
+    }
+    show(&tables, args, "")?;
+    draw(&rivals::figure(&outcomes), args, "rivals.svg")
+}
+
+/// Prints tables, and writes them where that is wanted.
+fn show(tables: &[Table], args: &BenchArgs, prefix: &str) -> Result<(), Failure> {
+    for table in tables {
+        print(&format!("\n{}", grid(table)))?;
+        if let Some(out) = &args.out {
+            let file = format!("{prefix}{}.csv", table.id);
+            write_atomic(&out.join(file), report::csv(table).as_bytes())?;
+        }
+    }
+    Ok(())
+}
+
+/// Writes a figure, where that is wanted.
+fn draw(figure: &plots::Figure, args: &BenchArgs, file: &str) -> Result<(), Failure> {
+    let Some(out) = &args.out else { return Ok(()) };
+    let svg = plots::render_svg(figure).map_err(Failure::usage)?;
+    Ok(write_atomic(&out.join(file), svg.as_bytes())?)
 }
 
 /// A case whose speed is measured.
@@ -88,18 +153,8 @@ fn pace_of(impact: &Impact, args: &BenchArgs) -> Result<(), Failure> {
     let kernel = run((kernel, impact.of_paper), 1)?;
     let paces = [one, paper, kernel];
     let tables = [pace::work(&paces), pace::phases(&paces), pace::machine(&paces[0], &more)];
-    for table in &tables {
-        print(&format!("\n{}", grid(table)))?;
-        if let Some(out) = &args.out {
-            let file = format!("{}-{}.csv", case.id(), table.id);
-            write_atomic(&out.join(file), report::csv(table).as_bytes())?;
-        }
-    }
-    if let Some(out) = &args.out {
-        let svg = plots::render_svg(&pace::figure(&paces)).map_err(Failure::usage)?;
-        write_atomic(&out.join(format!("{}-pace.svg", case.id())), svg.as_bytes())?;
-    }
-    Ok(())
+    show(&tables, args, &format!("{}-", case.id()))?;
+    draw(&pace::figure(&paces), args, &format!("{}-pace.svg", case.id()))
 }
 
 /// A table for the terminal: names to the left, numbers to the right, its caption below.
