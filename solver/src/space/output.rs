@@ -28,6 +28,17 @@ pub struct Particle {
     pub held: f64,
 }
 
+/// How an ellipsoidal particle lies.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Ellipsoid {
+    /// Its axes, unit vectors in global ones: the columns of `R`, Eq. (2).
+    pub axes: [[f64; 3]; 3],
+    /// Half-lengths `h_k` along them.
+    pub half_lengths: [f64; 3],
+    /// Contact lengths `2 beta h_k`.
+    pub contact_lengths: [f64; 3],
+}
+
 /// An element.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Element {
@@ -143,9 +154,15 @@ impl Simulation {
         self.mesh.bodies.len()
     }
 
-    /// Axes of a particle in global ones, and half-lengths `h_k` along them; nothing of a sphere.
+    /// Whether particles are ellipsoids, of a body at least.
     #[must_use]
-    pub fn ellipsoid(&self, id: u32) -> Option<([[f64; 3]; 3], [f64; 3])> {
+    pub fn rotates(&self) -> bool {
+        self.contacts.rotates()
+    }
+
+    /// A particle that is an ellipsoid; nothing of a sphere.
+    #[must_use]
+    pub fn ellipsoid(&self, id: u32) -> Option<Ellipsoid> {
         self.contacts.ellipsoid((&self.mesh, &self.state), id as usize)
     }
 

@@ -2,12 +2,13 @@
 //!
 //! Every frame has two parts. `particles` are all particles as vertices, `elements` all elements as
 //! hexahedra over the nodes: a threshold on `live` hides what is no volume any more. Positions and
-//! masses are doubles, other fields single precision.
+//! masses are doubles, other fields single precision. Ellipsoids have a tensor besides, `shape`.
 
 use std::path::Path;
 
 use whipple_solver::space::Simulation;
 use whipple_solver::space::output::{Element, Particle};
+use whipple_solver::space::spin::half_lengths;
 
 use crate::vtk::{Cells, Collection, CollectionError, Field, Grid, Values, VtkError};
 
@@ -42,11 +43,15 @@ impl Frames {
     pub fn record(&mut self, simulation: &Simulation) -> Result<(), VtkError> {
         let particles: Vec<Particle> = simulation.all_particles().collect();
         let elements: Vec<Element> = simulation.all_elements().collect();
-        self.particles(simulation.time(), &particles)?;
+        self.particles(simulation, &particles)?;
         self.elements(simulation.time(), &elements, &particles)
     }
 
-    fn particles(&mut self, time: f64, particles: &[Particle]) -> Result<(), VtkError> {
+    fn particles(
+        &mut self,
+        simulation: &Simulation,
+        particles: &[Particle],
+    ) -> Result<(), VtkError> {
         let points: Vec<[f64; 3]> = particles.iter().map(|p| p.position).collect();
         let column = |of: fn(&Particle) -> f64| particles.iter().map(of).collect::<Vec<f64>>();
         let velocity: Vec<f64> = particles.iter().flat_map(|p| p.velocity).collect();
@@ -67,9 +72,17 @@ impl Frames {
             Field::new("velocity", 3, Values::Float32(&velocity)),
         ];
         point_data.extend(fields.iter().map(single));
+        let shapes: Vec<f64> = if simulation.rotates() {
+            particles.iter().flat_map(|p| shape(simulation, p)).collect()
+        } else {
+            Vec::new()
+        };
+        if !shapes.is_empty() {
+            point_data.push(Field::new("shape", 6, Values::Float32(&shapes)));
+        }
         let cells = Cells::particles();
         let grid = Grid { points: &points, cells, point_data, cell_data: Vec::new() };
-        self.collection.record(time, "particles", &grid)?;
+        self.collection.record(simulation.time(), "particles", &grid)?;
         Ok(())
     }
 
@@ -113,6 +126,19 @@ impl Frames {
         self.collection.record(time, "elements", &grid)?;
         Ok(())
     }
+}
+
+/// `sum_k h_k a_k a_k^T` of a particle with half-lengths `h_k` along its axes: xx, yy, zz, xy, yz, xz. Tensor glyphs draw
+/// the ellipsoid by it.
+fn shape(simulation: &Simulation, particle: &Particle) -> [f64; 6] {
+    let Some(own) = simulation.ellipsoid(particle.id) else {
+        let [radius, ..] = half_lengths([simulation.sizes(particle.body).0; 3]);
+        return [radius, radius, radius, 0.0, 0.0, 0.0];
+    };
+    [[0, 0], [1, 1], [2, 2], [0, 1], [1, 2], [0, 2]].map(|[a, b]| {
+        let axes = own.half_lengths.iter().zip(&own.axes);
+        axes.map(|(half, axis)| half * axis[a] * axis[b]).sum()
+    })
 }
 
 /// A field in single precision.

@@ -6,8 +6,8 @@ use whipple_solver::units::{Dimension, Units};
 
 use super::frames::places;
 use crate::paint::{
-    Camera, ColourMap, Colouring, Field, Hexahedron, Length, Mark, Model, PaintError, Picture,
-    Plane, Sphere, Theme, paint,
+    Camera, ColourMap, Colouring, Ellipsoid, Field, Hexahedron, Length, Mark, Model, PaintError,
+    Picture, Plane, Sphere, Theme, paint,
 };
 
 /// What decides the colours.
@@ -84,8 +84,8 @@ pub fn frame(simulation: &Simulation, share: f64) -> [[f64; 3]; 2] {
     [low, high]
 }
 
-/// Live elements as hexahedra, particles without live elements as spheres as wide as a contact is
-/// long. The value of a mark is the plastic strain of an element if that is shown, otherwise the
+/// Live elements as hexahedra, particles without live elements as spheres or ellipsoids as wide as a
+/// contact is long. The value of a mark is the plastic strain of an element if that is shown, otherwise the
 /// temperature: of a particle, or the mean of an element by mass.
 #[must_use]
 pub fn model(simulation: &Simulation, shown: Shown) -> Model {
@@ -108,17 +108,25 @@ pub fn model(simulation: &Simulation, shown: Shown) -> Model {
     let hexahedra = elements.map(hexahedron).collect();
     let radii: Vec<f64> =
         (0..simulation.bodies()).map(|body| 0.5 * simulation.sizes(body).0).collect();
-    let sphere = |p: &Particle| Sphere {
-        centre: p.position,
-        radius: radii[p.body],
-        mark: Mark {
-            value: if strained { f32::NAN } else { p.theta as f32 },
-            class: class(p.body),
-        },
+    let mark = |p: &Particle| Mark {
+        value: if strained { f32::NAN } else { p.theta as f32 },
+        class: class(p.body),
     };
-    let spheres = particles.iter().filter(|p| p.held == 0.0).map(sphere).collect();
+    let (mut spheres, mut ellipsoids) = (Vec::new(), Vec::new());
+    for p in particles.iter().filter(|p| p.held == 0.0) {
+        let centre = p.position;
+        match simulation.ellipsoid(p.id) {
+            None => spheres.push(Sphere { centre, radius: radii[p.body], mark: mark(p) }),
+            Some(shape) => ellipsoids.push(Ellipsoid {
+                centre,
+                half_axes: shape.contact_lengths.map(|length| 0.5 * length),
+                directions: shape.axes,
+                mark: mark(p),
+            }),
+        }
+    }
     let points = particles.iter().map(|p| p.position).collect();
-    Model { points, spheres, hexahedra, ellipsoids: Vec::new() }
+    Model { points, spheres, hexahedra, ellipsoids }
 }
 
 /// Class of a body.
@@ -166,11 +174,13 @@ pub fn shoot(
     let mut model = model(simulation, shot.shown);
     if !shot.loose {
         model.spheres.clear();
+        model.ellipsoids.clear();
     }
     if let Some([low, high]) = shot.camera.frame {
         // None is cut in half by the edge of the picture.
         let inside = |x: &[f64; 3]| (0..3).all(|d| low[d] <= x[d] && x[d] <= high[d]);
         model.spheres.retain(|sphere| inside(&sphere.centre));
+        model.ellipsoids.retain(|ellipsoid| inside(&ellipsoid.centre));
     }
     Ok([paint(&model, &light)?, paint(&model, &dark)?])
 }

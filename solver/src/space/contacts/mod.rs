@@ -21,6 +21,7 @@ use super::lattice::NONE;
 use super::mesh::Mesh;
 use super::method::Method;
 use super::near::{DEBRIS, EXPOSED, PairList, Points, Reach};
+use super::output::Ellipsoid;
 use super::spin::{Rigid, Spins, Who, half_lengths};
 use crate::method::{Density, Integrator};
 
@@ -268,18 +269,13 @@ impl Contacts {
         Some((rigid.energy(&who.inertia(mesh)), (rigid.turn * rigid.momentum).into()))
     }
 
-    /// Axes of a particle in global ones, and half-lengths along them; nothing of a sphere.
-    pub(super) fn ellipsoid(
-        &self,
-        (mesh, state): (&Mesh, &State),
-        i: usize,
-    ) -> Option<([[f64; 3]; 3], [f64; 3])> {
+    /// A particle that is an ellipsoid; nothing of a sphere.
+    pub(super) fn ellipsoid(&self, (mesh, state): (&Mesh, &State), i: usize) -> Option<Ellipsoid> {
         let spins = self.forces.spins()?;
-        let body = mesh.place(i).0;
-        let lengths = mesh.bodies[body].ellipsoid?;
+        let contact_lengths = mesh.bodies[mesh.place(i).0].ellipsoid?;
         let own = self.find(i).and_then(|member| spins.rigid(member));
         let axes = own.map_or_else(|| Spins::held_axes(mesh, state, i), Rigid::axes);
-        Some((axes, half_lengths(lengths)))
+        Some(Ellipsoid { axes, half_lengths: half_lengths(contact_lengths), contact_lengths })
     }
 
     /// Number of members.

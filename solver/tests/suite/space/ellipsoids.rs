@@ -235,7 +235,7 @@ fn one_turn_of_a_block_of_bricks() {
 
 fn poses(simulation: &Simulation) -> Vec<[[f64; 3]; 3]> {
     let all =
-        simulation.all_particles().map(|p| simulation.ellipsoid(p.id).expect("an ellipsoid").0);
+        simulation.all_particles().map(|p| simulation.ellipsoid(p.id).expect("an ellipsoid").axes);
     all.collect()
 }
 
