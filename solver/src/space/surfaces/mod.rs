@@ -31,6 +31,10 @@ const CLOSE: f64 = 0.25;
 /// Distance over that of the face of the last step below which a spring has jumped, not slid.
 const JUMP: f64 = 0.8;
 
+/// The same above which its own face has died and it ends on another, farther away. What is less may be that
+/// a warped face has several nearest points.
+const SLIP: f64 = 1.001;
+
 /// Approach in a step over the distance, before the safety of the step.
 const APPROACH: f64 = 0.4;
 
@@ -201,11 +205,10 @@ impl Surfaces {
             let seen = Spring::again(&old, mesh, contacts);
             let mut kept = 0.0;
             if let Some(spring) = same {
-                let slid = |distance: f64| spring.distance >= JUMP * distance;
-                match &seen {
-                    Some((_, seen)) if slid(seen.past.distance) => {
-                        kept = seen.energy_as(spring, mesh);
-                    }
+                let moved = seen.as_ref().map(|(_, seen)| spring.distance / seen.past.distance);
+                match (moved, &seen) {
+                    (Some(JUMP..SLIP), _) => continue,
+                    (Some(SLIP..), Some((_, seen))) => kept = seen.energy_as(spring, mesh),
                     _ => begin(spring),
                 }
             }

@@ -1034,10 +1034,13 @@ impl Plain {
             let mut was = self.spring_on(&old.own, old.element, old.face.map(|(i, _)| i));
             let now = self.springs.iter().position(|s| same(s, &old));
             let mut kept = 0.0;
-            if let Some(k) =
-                now.filter(|&k| self.springs[k].z * self.springs[k].stand >= 0.8 * was.z)
-            {
+            let moved = now.map(|k| (k, self.springs[k].z * self.springs[k].stand / was.z));
+            if let Some((k, moved)) = moved.filter(|(_, moved)| *moved >= 0.8) {
                 slid[k] = true;
+                if moved < 1.001 {
+                    continue;
+                }
+                // Its own face has died.
                 kept = old.area * self.springs[k].energy();
             }
             if old.z < 1.0 {
