@@ -12,6 +12,7 @@ use whipple_solver::method::{Density, Preset};
 use whipple_solver::space::scene::Scene;
 
 use self::problem::{AS_PRINTED, ID, SIZES};
+use super::parts::shapes::Shapes;
 use super::{Case, Claim, Level, run_of};
 use crate::plots::Figure;
 use crate::record::{Records, RunKey, Scheme};
@@ -21,6 +22,17 @@ use crate::scene::AnyScene;
 
 /// The case.
 pub(super) struct LongRod;
+
+/// Which shape of its cells is cheaper.
+const SHAPES: Shapes = Shapes {
+    case: ID,
+    sizes: SIZES,
+    answers: &[
+        ("residual_length_cm", "residual length", "cm"),
+        ("residual_velocity_km_s", "residual velocity", "km/s"),
+    ],
+    which: "edges along the rod and in the plane of the plate",
+};
 
 /// Time between two entries of the histories, in us.
 const EVERY: f64 = 1.0;
@@ -71,7 +83,8 @@ impl Case for LongRod {
          `step-0.8` and `step-0.7` shorter steps, `yield-as-printed` the yield function of Eqs. \
          (39)-(43) as it is printed; `hourglass-on` has the drag against hourglass modes that solids \
          without strength have, `centring-on` the motion of centroids against their corners, with \
-         0.05 of the stiffness of a cell. No constant was fitted to this case."
+         0.05 of the stiffness of a cell; `cells-2` and `cells-4` have cells twice and four times as long \
+         along the rod and in the plane of the plate. No constant was fitted to this case."
     }
 
     fn source(&self) -> &'static str {
@@ -170,6 +183,7 @@ impl Case for LongRod {
         let mut figures = Vec::new();
         figures.extend(figures::histories(records));
         figures.extend(figures::energies(records));
+        figures.extend(SHAPES.figure(records));
         figures
     }
 }

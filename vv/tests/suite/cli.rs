@@ -508,6 +508,6 @@ fn bench_measures_the_rod() {
     for name in
         ["pace-phases.csv", "pace-machine.csv", "pace.svg"].map(|name| format!("long-rod-{name}"))
     {
-        assert!(!read(name).expect("a file").is_empty(), "{name}");
+        assert!(!read(&name).expect("a file").is_empty(), "{name}");
     }
 }

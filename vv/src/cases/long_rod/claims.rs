@@ -4,7 +4,7 @@ use whipple_solver::method::Preset;
 
 use super::problem::{EXCHANGED, ID, SIZES, STEPS, VARIANTS, WIDE, words};
 use super::published::KNOWN;
-use super::{kernel_key, key, varied_key};
+use super::{SHAPES, kernel_key, key, varied_key};
 use crate::cases::parts::control;
 use crate::cases::{Claim, Claims, Kind, Level, Quantity, Wanted, Weight, conservation_in_space};
 use crate::record::RunKey;
@@ -19,7 +19,10 @@ pub(super) fn runs(level: Level) -> Vec<RunKey> {
     if level == Level::Full {
         keys.push(key(Preset::Default, large));
         keys.extend([key(Preset::Paper, middle), key(Preset::Paper, large)]);
-        keys.extend(VARIANTS[1..].iter().map(|v| varied_key(Preset::Default, v)));
+        let shapes = SHAPES.runs();
+        let others = VARIANTS[1..].iter().map(|v| varied_key(Preset::Default, v));
+        keys.extend(others.filter(|key| !shapes.contains(key)));
+        keys.extend(shapes);
         // What the uncertainty by the inputs needs; the paper's own reading stands in Table 5.
         keys.extend(["", EXCHANGED, WIDE].map(|v| varied_key(Preset::Paper, v)));
         keys.extend(Preset::ALL.map(kernel_key));

@@ -7,6 +7,7 @@ use whipple_solver::units::Units;
 
 use crate::cases::parts::control;
 use crate::cases::parts::metals::{Ductile, Metal, STEEL, TUNGSTEN};
+use crate::cases::parts::shapes::{LONG, aspect};
 
 pub(super) const ID: &str = "long-rod";
 /// Diameter and length of the rod, thickness of the plate, in cm: the paper's problem.
@@ -44,7 +45,7 @@ pub(super) const STEPS: [&str; 2] = [STEP_08, STEP_07];
 const YIELD_AS_PRINTED: &str = "yield-as-printed";
 
 /// Names of the variants, the plain one first.
-pub(super) const VARIANTS: [&str; 12] = [
+pub(super) const VARIANTS: [&str; 14] = [
     "",
     AS_PRINTED,
     EXCHANGED,
@@ -57,6 +58,8 @@ pub(super) const VARIANTS: [&str; 12] = [
     YIELD_AS_PRINTED,
     control::HOURGLASS,
     control::CENTRING,
+    LONG[0],
+    LONG[1],
 ];
 
 /// What a variant is, in words.
@@ -71,6 +74,8 @@ pub(super) fn words(variant: &str) -> &'static str {
         STEP_08 => "safety of the time step 0.8",
         STEP_07 => "safety of the time step 0.7",
         YIELD_AS_PRINTED => "yield function as printed",
+        "cells-2" => "cells twice as long",
+        "cells-4" => "cells four times as long",
         control::HOURGLASS => "drag on hourglass modes",
         control::CENTRING => "motion of centroids resisted",
         _ => "Table 4 exchanged and converted",
@@ -110,11 +115,11 @@ fn varied(method: Method, variant: &str) -> Method {
     }
 }
 
-/// Rod and plate with `n` cells across: the plate fills 0 < y < 0.5 cm about x = z = 0, and the axis
+/// Rod and plate with `n` cells across, which are so many times as long along the rod and in the plane of the plate: the plate fills 0 < y < 0.5 cm about x = z = 0, and the axis
 /// of the rod runs through its middle.
-fn bodies(n: usize, plate: [f64; 2]) -> Vec<Body> {
+fn bodies(n: usize, plate: [f64; 2], aspect: usize) -> Vec<Body> {
     let edge = DIAMETER / n as f64;
-    let across = |length: f64| (length / edge).round() as usize;
+    let across = |length: f64| (length / (edge * aspect as f64)).round() as usize;
     let (sine, cosine) = OBLIQUITY.to_radians().sin_cos();
     // The lowest point of the rim is a little under the plate.
     let tip = -(GAP * edge + 0.5 * DIAMETER * sine);
@@ -161,6 +166,6 @@ pub(super) fn scene(preset: Preset, variant: &str, n: usize) -> Scene {
         method: varied(preset.space(), variant),
         walls: Vec::new(),
         materials: vec![metal(TUNGSTEN, 1.45, rod), metal(STEEL, 0.801, plate)],
-        bodies: bodies(n, if variant == WIDE { WIDE_PLATE } else { PLATE }),
+        bodies: bodies(n, if variant == WIDE { WIDE_PLATE } else { PLATE }, aspect(variant)),
     }
 }

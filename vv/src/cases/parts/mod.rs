@@ -13,6 +13,7 @@ pub(super) mod motion;
 pub(super) mod perforation;
 pub(super) mod pieces;
 pub(super) mod planes;
+pub(super) mod shapes;
 pub(super) mod shells;
 pub(super) mod studies;
 
