@@ -31,7 +31,7 @@ impl Kernel {
                 let square = |d: usize| (per_step[d] * f64::from(at[d] - to[d])).powi(2);
                 (0..3).map(square).sum::<f64>().sqrt()
             };
-            let others = mesh.within_two_cells(body, at).filter(|&other| other != i);
+            let others = mesh.within(2, body, at).filter(|&other| other != i);
             let sum: f64 = others.map(|other| kernel.value(zeta(other))).sum();
             kernel.scale[i] = 1.0 / (kernel.value(0.0) + sum);
         }
@@ -65,6 +65,12 @@ impl Kernel {
             0.0
         };
         slope * 2.0 / self.support
+    }
+
+    /// Distance, in contact lengths, at which it ends.
+    #[must_use]
+    pub fn support(&self) -> f64 {
+        self.support
     }
 
     /// One over the sum at the start.

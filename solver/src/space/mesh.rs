@@ -391,11 +391,18 @@ impl Mesh {
         self.share[i] < CENTROID_SHARE || self.ratio[i] != 1.0
     }
 
-    /// Particles of a body within two cells of these coordinates.
-    pub fn within_two_cells(&self, body: usize, at: [i16; 3]) -> impl Iterator<Item = usize> + '_ {
+    /// Particles of a body within so many cells of these coordinates.
+    pub fn within(
+        &self,
+        cells: i16,
+        body: usize,
+        at: [i16; 3],
+    ) -> impl Iterator<Item = usize> + '_ {
         let own = &self.bodies[body];
         let near = move |parity: i16| {
-            let axis = move |d: usize| (at[d] - 4..=at[d] + 4).filter(move |c| c & 1 == parity);
+            let half = 2 * cells;
+            let axis =
+                move |d: usize| (at[d] - half..=at[d] + half).filter(move |c| c & 1 == parity);
             axis(0).flat_map(move |f| axis(1).flat_map(move |m| axis(2).map(move |s| [f, m, s])))
         };
         let some = |index: u32, start: usize| {

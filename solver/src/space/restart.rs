@@ -192,6 +192,7 @@ impl Simulation {
             add(name, Values::F64(places));
         }
         add("list.stale", Values::U8(vec![u8::from(contacts.stale)]));
+        add("list.skin", Values::F64(contacts.skin.to_vec()));
         if let Some(rigid) = contacts.rigid {
             add("spin.rigid", Values::F64(rigid));
         }
@@ -316,11 +317,12 @@ impl Simulation {
             flags: from.u8s().to_vec(),
             places: [from.f64s().to_vec(), from.f64s().to_vec(), from.f64s().to_vec()],
             stale: from.u8s() != [0],
+            skin: from.f64s().try_into().unwrap_or_default(),
             rigid: self.contacts.rotates().then(|| from.f64s().to_vec()),
         };
         self.contacts.recall(&self.mesh, &memory, &self.method);
         // The list is that of its time; the members stand where they are now.
-        self.contacts.refresh(&self.mesh, &self.state, &self.method);
+        self.contacts.look_again(&self.mesh, &self.state, &self.method);
         let memory = surfaces::Memory {
             stand: from.f64s().to_vec(),
             distance: from.f64s().to_vec(),

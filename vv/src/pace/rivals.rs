@@ -357,41 +357,41 @@ mod tests {
     use crate::cases::find;
     use whipple_solver::method::Preset;
 
-    /// Counts of a contest against those of every pair of particles looked at.
+    /// Counts of a contest, and those of its kernel against every pair of particles looked at.
     #[test]
     fn counts_are_those_of_all_pairs() {
         let scene = find("planar-impact").expect("the case").scene(Preset::Paper, "", 8);
         let scene = scene.space().expect("a scene in space");
         for sight in Sight::ALL {
-            let contest = Contest {
-                integrator: Integrator::SinglePass,
-                sight,
-                from: 0.0,
-                steps: 3,
-                rounds: 1,
-            };
+            let integrator = Integrator::SinglePass;
+            let contest = Contest { integrator, sight, from: 0.0, steps: 3, rounds: 1 };
             let outcome = compare(scene, contest).expect("a run");
             let [plain, kernel] = &outcome.sides;
             assert_eq!(plain.evaluations, 0.0);
-            assert!((kernel.evaluations - 2.0 * kernel.listed).abs() < 1e-9);
             let same = (plain.listed - kernel.listed).abs() < 1e-12;
             assert_eq!(same, sight == Sight::Equal, "{} {}", plain.listed, kernel.listed);
-            let simulation = Simulation::new(&scenes(scene, &contest)[1]).expect("a scene");
-            let reach = simulation.sizes(0).0 * scenes(scene, &contest)[1].method.kernel_support;
+
+            let own = &scenes(scene, &contest)[1];
+            let mut simulation = Simulation::new(own).expect("a scene");
+            simulation.step(f64::INFINITY).expect("a step");
+            let before = simulation.counters().kernel_evaluations;
+            simulation.step(f64::INFINITY).expect("a step");
+            let evaluations = simulation.counters().kernel_evaluations - before;
             let all: Vec<[f64; 3]> = simulation.all_particles().map(|p| p.position).collect();
-            let near = |a: &[f64; 3], b: &[f64; 3], far: f64| {
-                (0..3).map(|d| (a[d] - b[d]).powi(2)).sum::<f64>() < far * far
-            };
+            let length = simulation.sizes(0).0;
             let count = |far: f64| {
+                let near = |a: &[f64; 3], b: &[f64; 3]| {
+                    (0..3).map(|d| (a[d] - b[d]).powi(2)).sum::<f64>() < (far * length).powi(2)
+                };
                 let pairs = all.iter().enumerate();
-                pairs
-                    .map(|(k, a)| all[..k].iter().filter(|b| near(a, b, far)).count())
-                    .sum::<usize>()
+                let own = pairs.map(|(k, a)| all[..k].iter().filter(|b| near(a, b)).count());
+                own.sum::<usize>()
             };
-            // The list reaches a little further than contacts, and no further than its margin.
+            let support = own.method.kernel_support;
+            assert_eq!(evaluations, 2 * count(support) as u64, "{}", sight.name());
+            // The list reaches further than the kernel by its margin.
             let listed = simulation.pairs();
-            let margin = 0.81 * simulation.sizes(0).0;
-            assert!(count(reach) <= listed && listed <= count(reach + margin), "{listed}");
+            assert!(count(support) < listed && listed <= count(support + 0.9), "{listed}");
         }
     }
 }

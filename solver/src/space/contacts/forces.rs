@@ -174,16 +174,17 @@ impl Contacts {
 
     /// The sweep that the paper's scheme removes: density from the positions, if by a kernel.
     pub fn sum_density(&mut self, mesh: &Mesh, state: &State, rho: &mut [f64]) -> u64 {
-        let mut terms = std::mem::take(&mut self.terms);
+        let (mut terms, longest) = (std::mem::take(&mut self.terms), self.longest);
         let (crowd, forces, kernel, _) = self.parts();
         let Some(kernel) = kernel else { return 0 };
-        match forces {
-            Forces::Spheres(_) => kernel_terms(&crowd, &Spheres, (mesh, kernel), &mut terms),
+        let of = (mesh, kernel, (kernel.support() * longest).powi(2));
+        let within = match forces {
+            Forces::Spheres(_) => kernel_terms(&crowd, &Spheres, of, &mut terms),
             Forces::Ellipsoids(_, spins) => {
                 spins.pose(mesh, state, |member| crowd.who(member));
-                kernel_terms(&crowd, spins, (mesh, kernel), &mut terms);
+                kernel_terms(&crowd, spins, of, &mut terms)
             }
-        }
+        };
         for &i in crowd.members {
             rho[i as usize] = kernel.value(0.0);
         }
@@ -195,9 +196,8 @@ impl Contacts {
         for (&i, &body) in crowd.members.iter().zip(crowd.body) {
             rho[i as usize] *= kernel.scale(i as usize) * mesh.bodies[body as usize].rho_0;
         }
-        let evaluations = 2 * pairs.len() as u64;
         self.terms = terms;
-        evaluations
+        2 * within
     }
 
     /// Forces, torques, conduction over the last step, of length `dt`, and the marks of touched particles. Viscosity
@@ -296,22 +296,35 @@ impl Contacts {
     }
 }
 
-/// The terms of the sum over a kernel, pair by pair.
+/// The terms of the sum over a kernel, pair by pair; nothing of those out of its reach. Returns how many were in it.
 fn kernel_terms<S: Shape>(
     crowd: &Crowd<'_>,
     shape: &S,
-    (mesh, kernel): (&Mesh, &Kernel),
+    (mesh, kernel, widest): (&Mesh, &Kernel, f64),
     terms: &mut Vec<Vec<[f64; 2]>>,
-) {
+) -> u64 {
     let pairs = crowd.list.pairs();
     terms.resize_with(pairs.len().div_ceil(BLOCK), Vec::new);
-    terms.par_iter_mut().zip(pairs.par_chunks(BLOCK)).for_each(|(terms, pairs)| {
+    let each = terms.par_iter_mut().zip(pairs.par_chunks(BLOCK)).map(|(terms, pairs)| {
         terms.clear();
-        terms.extend(pairs.iter().map(|&members| {
-            let meeting = shape.meet(mesh, &crowd.pair(members), crowd.apart(members));
-            meeting.zeta.map(|zeta| kernel.value(zeta))
-        }));
+        let mut within = 0;
+        for &members in pairs {
+            let r = crowd.apart(members);
+            let near = r[0] * r[0] + r[1] * r[1] + r[2] * r[2] < widest;
+            within += u64::from(near);
+            put(
+                terms,
+                if near {
+                    let meeting = shape.meet(mesh, &crowd.pair(members), r);
+                    meeting.zeta.map(|zeta| kernel.value(zeta))
+                } else {
+                    [0.0; 2]
+                },
+            );
+        }
+        within
     });
+    each.sum()
 }
 
 /// What contacts do over the mean velocities of a step.

@@ -19,6 +19,8 @@ pub(in crate::space) struct Memory {
     pub(in crate::space) places: [Vec<f64>; 3],
     /// Whether the list is to be made anew.
     pub(in crate::space) stale: bool,
+    /// Margin of the list, in contact lengths, and the steps that it has served.
+    pub(in crate::space) skin: [f64; 2],
     /// Of particles that rotate on their own: one, Euler parameters and angular momentum in own axes, eight numbers in
     /// all; eight zeros of others. Nothing of spheres.
     pub(in crate::space) rigid: Option<Vec<f64>>,
@@ -76,7 +78,8 @@ impl Contacts {
             let of = |at: &u32| by_particle(at).and_then(|at| spins.rigid(at));
             self.index.iter().flat_map(|at| of(at).map_or([0.0; 8], numbers)).collect()
         });
-        Memory { index: self.index.clone(), flags, places, stale: self.changed, rigid }
+        let skin = [self.skin, self.served as f64];
+        Memory { index: self.index.clone(), flags, places, stale: self.changed, skin, rigid }
     }
 
     /// The members, and the list as it was made.
@@ -85,7 +88,9 @@ impl Contacts {
         let forces = Forces::new(mesh, volumes);
         let index = vec![NONE; mesh.len];
         let power = std::mem::take(&mut self.power);
-        *self = Self { index, longest, kernel, volumes, forces, power, ..Self::default() };
+        let [skin, served] = memory.skin;
+        *self = Self { index, longest, kernel, volumes, forces, power, skin, ..Self::default() };
+        self.served = served as u64;
         let order = in_order(&memory.index);
         self.reserve(mesh.particles.min(order.len() + order.len() / 8));
         for i in order {

@@ -28,8 +28,13 @@ use crate::method::{Density, Integrator};
 /// Pairs that one task evaluates.
 const BLOCK: usize = 4096;
 
-/// Margin of the list over the reach of contacts, in contact lengths.
-const SKIN: f64 = 0.8;
+/// Margins of the list over the reach of contacts, in contact lengths: of material, and at most of debris that spreads.
+const SKIN: [f64; 2] = [0.8, 3.2];
+
+/// By how much the margin grows where a list has served for fewer steps than the first of [`SERVED`], and shrinks where it
+/// has served for more than the second.
+const GROWTH: f64 = 1.25;
+const SERVED: [u64; 2] = [6, 24];
 
 /// Distance in contact lengths within which surfaces seek nodes of each other: that from the middle of a
 /// face stretched to 1.5 times its edge, where it is felt, to its corners, and a little more.
@@ -37,6 +42,10 @@ pub(super) const SIGHT: f64 = 1.4;
 
 /// Flag of members whose pairs are to be looked for.
 const FRESH: u8 = 4;
+
+/// Cells below a surface that take part in contacts, and cells round a dying element that are made able to.
+const NEAR: i16 = 2;
+const AHEAD: i16 = 4;
 
 /// Half cells between parts of a body that may touch by folding.
 const FOLD: i16 = 12;
@@ -60,6 +69,9 @@ pub struct Contacts {
     /// Power of the contacts on each member, where the sweep that finds forces sums it: in a single pass.
     power: Vec<f64>,
     terms: Vec<Vec<[f64; 2]>>,
+    /// Margin of the list, in contact lengths; steps since it was made.
+    skin: f64,
+    served: u64,
     /// Changes of the list so far.
     changes: u64,
     /// Whether the list must be renewed whatever has moved.
@@ -119,6 +131,7 @@ impl Contacts {
             volumes,
             index: vec![NONE; mesh.len],
             forces: Forces::new(mesh, volumes),
+            skin: SKIN[0],
             longest: mesh.bodies.iter().map(|b| b.longest).fold(0.0, f64::max),
             ..Self::default()
         };
@@ -128,7 +141,7 @@ impl Contacts {
         for i in mesh.real().filter(|i| volumes && exposed(i)) {
             let (body, place) = mesh.place(i);
             chosen[i] = true;
-            mesh.within_two_cells(body, place).for_each(|near| chosen[near] = true);
+            mesh.within(NEAR, body, place).for_each(|near| chosen[near] = true);
         }
         let members = mesh.real().filter(|&i| chosen[i]).count();
         contacts.reserve(mesh.particles.min(members + members / 8));
@@ -172,8 +185,10 @@ impl Contacts {
         if let Some(spins) = self.forces.spins_mut() {
             spins.want(member);
         }
-        if hidden {
-            for near in mesh.within_two_cells(body, place) {
+        // A list must be made anew for new members: those that deaths to come will ask for come along.
+        let missing = |near: usize| self.index[near] == NONE;
+        if hidden && mesh.within(NEAR, body, place).any(missing) {
+            for near in mesh.within(AHEAD, body, place) {
                 self.admit(mesh, near);
             }
         }
@@ -302,14 +317,35 @@ impl Contacts {
         self.list.counters()
     }
 
-    /// Moves the members to their present positions and renews the list if it is stale.
+    /// Moves the members to their positions after a step and renews the list if it is stale.
     pub fn refresh(&mut self, mesh: &Mesh, state: &State, method: &Method) {
+        self.served += 1;
+        self.look_again(mesh, state, method);
+    }
+
+    /// Moves the members to their present positions and renews the list if it is stale.
+    pub(super) fn look_again(&mut self, mesh: &Mesh, state: &State, method: &Method) {
         self.follow(mesh, state);
         let lattice = self.volumes.then_some(&self.place[..]);
         let points = points(&self.position, &self.length, &self.flags, &self.body, lattice);
         if self.changed || self.list.is_stale(&points) {
+            self.adapt();
             self.renew(mesh, method);
         }
+    }
+
+    /// Sets the margin of the next list by how long this one has served: where debris flies apart, a wider one is made
+    /// less often, and lists little more.
+    fn adapt(&mut self) {
+        let [least, most] = SKIN;
+        let [short, long] = SERVED;
+        // Of schemes that look at all pairs of the list a wider one has its price.
+        if self.served < short && !self.changed && self.volumes {
+            self.skin = (self.skin * GROWTH).min(most);
+        } else if self.served > long {
+            self.skin = (self.skin / GROWTH).max(least);
+        }
+        self.served = 0;
     }
 
     /// Moves the members to their present positions.
@@ -350,7 +386,7 @@ impl Contacts {
     /// After elements died: lists the pairs of the particles that were exposed.
     pub fn open(&mut self, mesh: &Mesh, state: &State, method: &Method) {
         if self.changed {
-            self.refresh(mesh, state, method);
+            self.look_again(mesh, state, method);
             return;
         }
         let Self { list, length, flags, body, place, volumes, .. } = self;
@@ -372,7 +408,7 @@ impl Contacts {
         let points = points(&self.position, &self.length, &self.flags, &self.body, lattice);
         let sight = if self.volumes { SIGHT } else { 0.0 };
         let factor = method.reach().max(sight);
-        let reach = Reach { factor, skin: SKIN * self.longest };
+        let reach = Reach { factor, skin: self.skin * self.longest };
         self.list.rebuild(&points, reach, may_touch(mesh, (&self.flags, &self.body), lattice));
         self.settle();
     }
