@@ -12,6 +12,7 @@ use whipple_solver::method::{Density, Preset};
 use whipple_solver::space::scene::Scene;
 
 use self::problem::{AS_PRINTED, ID, SIZES};
+use super::parts::photos::take;
 use super::{Case, Claim, Level, run_of};
 use crate::plots::Figure;
 use crate::record::{Records, RunKey, Scheme};
@@ -99,7 +100,7 @@ impl Case for LongRod {
         let shown = *key == self::key(Preset::Default, SIZES[0]);
         let mut rows = vec![driver.look(history::look)?];
         if shown {
-            photos::take(driver, scene, 0.0)?;
+            take(&photos::WISHES, driver, scene, 0.0)?;
         }
         let entries = (scene.stop_time / EVERY).ceil() as usize;
         for k in 1..=entries {
@@ -107,7 +108,7 @@ impl Case for LongRod {
             driver.advance_to(time)?;
             rows.push(driver.look(history::look)?);
             if shown {
-                photos::take(driver, scene, time)?;
+                take(&photos::WISHES, driver, scene, time)?;
             }
         }
         let history = history::columns(&rows);

@@ -11,6 +11,7 @@ use whipple_solver::space::scene::Scene;
 
 use self::problem::{CHOICES, ID, SIZES};
 use super::parts::perforation;
+use super::parts::photos::take;
 use super::{Case, Choice, Claim, Level, default_run};
 use crate::plots::Figure;
 use crate::record::{Records, RunKey, Scheme};
@@ -90,7 +91,8 @@ impl Case for RccPlate {
     ) -> Result<Findings, RunError> {
         let shown = *key == varied("");
         perforation::measure(driver, scene, |driver, time| {
-            if shown { photos::take(driver, scene, time) } else { Ok(()) }
+            let wishes = if shown { &photos::WISHES[..] } else { &[] };
+            take(wishes, driver, scene, time)
         })
     }
 

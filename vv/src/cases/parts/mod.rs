@@ -11,6 +11,7 @@ pub(super) mod metals;
 pub(super) mod modes;
 pub(super) mod motion;
 pub(super) mod perforation;
+pub(super) mod photos;
 pub(super) mod pieces;
 pub(super) mod planes;
 pub(super) mod shells;
