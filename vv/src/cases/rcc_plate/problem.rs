@@ -25,6 +25,8 @@ pub(super) const CHOICES: [Choice; 2] =
 
 /// A larger plate.
 pub(super) const WIDE: &str = "wide";
+/// Three times as long.
+const LATE: &str = "late";
 /// No spall strength of the sphere.
 const SPALL_NONE: &str = "spall-none";
 /// The plate tears at a tension of its yield stress: no spall strength of it is known.
@@ -41,7 +43,7 @@ const COMPRESSION_04: &str = "compression-0.4";
 pub(super) const STEP_08: &str = "step-0.8";
 
 /// Names of the variants: those of the choices, the plain one first, and those of one change each.
-pub(super) const VARIANTS: [&str; 21] = [
+pub(super) const VARIANTS: [&str; 22] = [
     "",
     "eos-rcc_soft",
     "eos-rcc_stiff",
@@ -55,6 +57,7 @@ pub(super) const VARIANTS: [&str; 21] = [
     "angle-60_eos-rcc_soft",
     "angle-60_eos-rcc_stiff",
     WIDE,
+    LATE,
     SPALL_NONE,
     SPALL_YIELD,
     STRAIN_HALF,
@@ -74,6 +77,7 @@ pub(super) fn changes() -> &'static [&'static str] {
 pub(super) fn words(variant: &str) -> &'static str {
     match variant {
         WIDE => "plate of 7 cm",
+        LATE => "to 30 µs",
         SPALL_NONE => "no spall strength of the sphere",
         SPALL_YIELD => "plate tears at its yield stress",
         STRAIN_HALF => "plate fails at a strain of 0.25",
@@ -154,7 +158,7 @@ pub(super) fn scene(preset: Preset, variant: &str, n: usize) -> Scene {
     Scene {
         name: ID.into(),
         units: Units::CmGUsMbar,
-        stop_time: STOP,
+        stop_time: if variant == LATE { 3.0 * STOP } else { STOP },
         method: Method { cfl, ..method },
         walls: Vec::new(),
         materials,
