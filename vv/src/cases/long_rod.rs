@@ -12,6 +12,8 @@ use whipple_solver::method::{Density, Preset};
 use whipple_solver::space::scene::Scene;
 
 use self::problem::{AS_PRINTED, ID, SIZES};
+use super::parts::photos::take;
+use super::parts::schemes::{Error, Schemes};
 use super::parts::shapes::Shapes;
 use super::{Case, Claim, Level, run_of};
 use crate::plots::Figure;
@@ -32,6 +34,14 @@ const SHAPES: Shapes = Shapes {
         ("residual_velocity_km_s", "residual velocity", "km/s"),
     ],
     which: "edges along the rod and in the plane of the plate",
+};
+
+/// Which density is cheaper at equal error, against the length in the experiment.
+const SCHEMES: Schemes = Schemes {
+    case: ID,
+    sizes: &[SIZES[0]],
+    error: Error::Off("residual_length_cm", published::LENGTH.measured),
+    name: "the length, against the experiment",
 };
 
 /// Time between two entries of the histories, in us.
@@ -112,7 +122,7 @@ impl Case for LongRod {
         let shown = *key == self::key(Preset::Default, SIZES[0]);
         let mut rows = vec![driver.look(history::look)?];
         if shown {
-            photos::take(driver, scene, 0.0)?;
+            take(&photos::WISHES, driver, scene, 0.0)?;
         }
         let entries = (scene.stop_time / EVERY).ceil() as usize;
         for k in 1..=entries {
@@ -120,7 +130,7 @@ impl Case for LongRod {
             driver.advance_to(time)?;
             rows.push(driver.look(history::look)?);
             if shown {
-                photos::take(driver, scene, time)?;
+                take(&photos::WISHES, driver, scene, time)?;
             }
         }
         let history = history::columns(&rows);

@@ -5,6 +5,7 @@ use whipple_solver::space::Simulation;
 use whipple_solver::space::scene::{Body, Scene, Shape, Side};
 
 use super::figures::{beside_exact, figure, profiles};
+use super::parts::schemes::{Error, Schemes};
 use super::parts::shells::{edge, outward, radius, shells};
 use super::parts::{Columns, gas_scene, mirror, moments, motion, resting, zonal};
 use super::{Case, Claim, Claims, Kind, Level, Quantity, Wanted, Weight, default_run, named};
@@ -12,6 +13,7 @@ use crate::exact::Geometry;
 use crate::exact::noh::Noh as Exact;
 use crate::plots::{Axis, Figure, Panel};
 use crate::record::{Records, RunKey};
+use crate::report::Table;
 use crate::run::{Findings, RunError, SpaceDriver};
 use crate::scene::AnyScene;
 
@@ -42,6 +44,9 @@ const SPHERICAL: &str = "spherical";
 const VARIANTS: [&str; 3] = ["", CYLINDRICAL, SPHERICAL];
 /// Cells along the unit of length.
 const SIZES: [usize; 3] = [8, 16, 24];
+/// Which density is cheaper at equal error, in the planar shock.
+const SCHEMES: Schemes =
+    Schemes { case: ID, sizes: &SIZES, error: Error::Norm("density_l1"), name: "the density, L1" };
 
 fn geometry(variant: &str) -> Geometry {
     match variant {
@@ -173,7 +178,9 @@ impl Case for NohSpace {
 
     fn runs(&self, level: Level) -> Vec<RunKey> {
         let sizes = level.first(&SIZES).iter();
-        sizes.flat_map(|&n| VARIANTS.map(|v| default_run(ID, n).variant(v))).collect()
+        let all = sizes.flat_map(|&n| VARIANTS.map(|v| default_run(ID, n).variant(v)));
+        let rivals = if level == Level::Full { SCHEMES.runs() } else { Vec::new() };
+        all.chain(rivals).collect()
     }
 
     fn claims(&self) -> Vec<Claim> {
@@ -237,6 +244,12 @@ impl Case for NohSpace {
         });
         let caption = "Density over the distance from plane, axis and centre at t = 0.6, means of thin \
                        shells by mass.";
-        figure("noh-space-density", caption, panels)
+        let mut figures = figure("noh-space-density", caption, panels);
+        figures.extend(SCHEMES.figure(records));
+        figures
+    }
+
+    fn extra_tables(&self, records: &Records) -> Vec<Table> {
+        SCHEMES.table(records).into_iter().collect()
     }
 }

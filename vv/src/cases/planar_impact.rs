@@ -9,11 +9,13 @@ use super::parts::column::Column;
 use super::parts::fit::slope;
 use super::parts::metals::{ALUMINIUM, COPPER, Metal, STEEL, TUNGSTEN};
 use super::parts::planes::{Plane, Planes, Ringing, front};
+use super::parts::schemes::{Error, Schemes};
 use super::parts::{Columns, last_fall, late_times, moments};
 use super::{Case, Claim, Claims, Kind, Level, Quantity, Wanted, Weight, default_run, paper_run};
 use crate::exact::hugoniot::PlanarImpact as Exact;
 use crate::plots::{Axis, Figure, Layer, Panel, Point};
 use crate::record::{Records, RunKey};
+use crate::report::Table;
 use crate::run::{Findings, RunError, SpaceDriver};
 use crate::scene::AnyScene;
 
@@ -48,6 +50,13 @@ const RUN: f64 = 0.75;
 const LOOKS: usize = 20;
 /// Cells along the column.
 const SIZES: [usize; 3] = [40, 80, 160];
+/// Which density is cheaper at equal error.
+const SCHEMES: Schemes = Schemes {
+    case: ID,
+    sizes: &SIZES,
+    error: Error::Norm("pressure_l1"),
+    name: "the pressure, L1",
+};
 /// Closing speeds in km/s.
 const SPEEDS: [&str; 5] = ["0.5", "1", "2", "4", "7"];
 /// The first runs when none is named: copper at 1 km/s.
@@ -267,6 +276,9 @@ impl Case for PlanarImpact {
             let paper = paper_run(ID, SIZES[1]);
             keys.extend(VARIANTS[..5].iter().map(|v| paper.clone().variant(v)));
         }
+        if level == Level::Full {
+            keys.extend(SCHEMES.runs());
+        }
         keys
     }
 
@@ -400,7 +412,12 @@ impl Case for PlanarImpact {
         let near = Axis::linear("P / exact less one, per cent").range(-NEAR, NEAR);
         let noise = of_metals([cells, near], noise_behind_the_front).into_iter().map(with_bounds);
         figures.extend(figure("planar-impact-noise", caption, noise));
+        figures.extend(SCHEMES.figure(records));
         figures
+    }
+
+    fn extra_tables(&self, records: &Records) -> Vec<Table> {
+        SCHEMES.table(records).into_iter().collect()
     }
 }
 

@@ -4,7 +4,7 @@ use whipple_solver::method::Preset;
 
 use super::problem::{AS_PRINTED, EXCHANGED, SIZES, STEPS, VARIANTS, WIDE, words};
 use super::published::{KNOWN, Known, PARTICLES};
-use super::{SHAPES, kernel_key, key, varied_key};
+use super::{SCHEMES, SHAPES, kernel_key, key, varied_key};
 use crate::cases::parts::studies::{FORMAL_ORDER, Judged, band, number, percent, range};
 use crate::convergence::{Behaviour, GridStudy, Level, OrderCheck, grid_study};
 use crate::record::{Records, RunKey, RunRecord};
@@ -70,6 +70,7 @@ pub(super) fn all(records: &Records) -> Vec<Table> {
     tables.push(validation(records));
     tables.extend(inputs(records));
     tables.extend(SHAPES.table(records));
+    tables.extend(SCHEMES.table(records));
     tables
 }
 

@@ -1,11 +1,7 @@
 //! Pictures of the run, as in the paper's Figures 11 to 15.
 
-use whipple_solver::space::Scene;
-
-use crate::run::{RunError, SpaceDriver};
-use crate::space::picture::{
-    Shot, Shown, frame, from_the_side, onto_the_section, shoot, symmetry_plane,
-};
+use crate::cases::parts::photos::Wish;
+use crate::space::picture::Shown;
 
 /// Temperatures at the ends of the colour bar, in K: those of rest and where carbon-carbon melts in Table
 /// 6.
@@ -17,19 +13,8 @@ const STRAINS: (f64, f64) = (0.0, 1.0);
 /// Share of the loose particles beyond either end of each axis that may lie outside a picture.
 const OUTSIDE: f64 = 0.06;
 
-/// A picture of the state at some time.
-struct Wish {
-    time: f64,
-    id: &'static str,
-    title: &'static str,
-    caption: &'static str,
-    section: bool,
-    /// Whether particles that no element holds are shown.
-    loose: bool,
-    shown: Shown,
-}
-
-const WISHES: [Wish; 5] = [
+/// What is taken.
+pub(super) const WISHES: [Wish; 5] = [
     Wish {
         time: 0.0,
         id: "rcc-plate-start",
@@ -37,7 +22,7 @@ const WISHES: [Wish; 5] = [
         caption: "Elements of sphere and plate before the impact (the paper's Figure 11); n = 4, \
                   `default`, as all pictures of this case.",
         section: false,
-        loose: true,
+        outside: Some(OUTSIDE),
         shown: Shown::Body,
     },
     Wish {
@@ -47,7 +32,7 @@ const WISHES: [Wish; 5] = [
         caption: "Live elements, and particles that no element holds any more, at 10 µs (the paper's \
                   Figure 12). Up to 6 % of those particles lie outside, beyond each side.",
         section: false,
-        loose: true,
+        outside: Some(OUTSIDE),
         shown: Shown::Body,
     },
     Wish {
@@ -56,7 +41,7 @@ const WISHES: [Wish; 5] = [
         title: "Elements after the perforation",
         caption: "Live elements alone at 10 µs (the paper's Figure 13).",
         section: false,
-        loose: false,
+        outside: None,
         shown: Shown::Body,
     },
     Wish {
@@ -67,7 +52,7 @@ const WISHES: [Wish; 5] = [
                   coloured by temperature (the paper's Figure 14). The colour bar ends where \
                   carbon-carbon melts in Table 6.",
         section: true,
-        loose: true,
+        outside: Some(OUTSIDE),
         shown: Shown::Temperature(Some(TEMPERATURES)),
     },
     Wish {
@@ -77,26 +62,7 @@ const WISHES: [Wish; 5] = [
         caption: "The same of live elements alone, coloured by effective plastic strain (the paper's \
                   Figure 15). The plate fails at 0.5, the sphere at 1.",
         section: true,
-        loose: false,
+        outside: None,
         shown: Shown::PlasticStrain(Some(STRAINS)),
     },
 ];
-
-/// Takes the pictures that are wanted of the present state.
-pub(super) fn take(driver: &mut SpaceDriver<'_>, scene: &Scene, time: f64) -> Result<(), RunError> {
-    for wish in WISHES.iter().filter(|wish| wish.time == time) {
-        driver.photograph(wish.id, wish.caption, |simulation| {
-            let (mut camera, section) = if wish.section {
-                (onto_the_section(), Some(symmetry_plane(simulation)))
-            } else {
-                (from_the_side(), None)
-            };
-            // Before the impact there are no far particles.
-            camera.frame = (time > 0.0).then(|| frame(simulation, OUTSIDE));
-            let (title, shown) = (wish.title.into(), wish.shown);
-            let shot = Shot { title, camera, section, shown, loose: wish.loose };
-            shoot(simulation, scene, &shot)
-        })?;
-    }
-    Ok(())
-}

@@ -3,7 +3,7 @@
 use whipple_solver::method::Preset;
 
 use super::claims::{SCATTER, angles, nasa, states};
-use super::problem::{CHANGES, ID, SIZES, STEP_08, degrees, words};
+use super::problem::{ID, SIZES, STEP_08, changes, degrees, words};
 use super::{kernel, varied};
 use crate::cases::parts::studies::{FORMAL_ORDER, Judged, band, number, percent};
 use crate::cases::{default_run, paper_run};
@@ -97,7 +97,7 @@ fn moves(records: &Records) -> Option<Table> {
     let states = states();
     let mut keys: Vec<(RunKey, &str)> =
         states.iter().map(|key| (key.clone(), words(&key.variant))).collect();
-    keys.extend(CHANGES.iter().map(|variant| (own(variant), words(variant))));
+    keys.extend(changes().iter().map(|variant| (own(variant), words(variant))));
     keys.push((paper_run(ID, SIZES[0]), words("")));
     keys.extend(Preset::ALL.map(|preset| (kernel(preset), "density by a kernel")));
     let shown = [
@@ -207,7 +207,7 @@ mod tests {
             // u_val is known where every part is.
             assert!(row[10].value.is_some(), "{row:?}");
         }
-        assert_eq!(moved.rows.len(), states().len() + CHANGES.len() + 3);
+        assert_eq!(moved.rows.len(), states().len() + changes().len() + 3);
         let empty = all(&Records::default());
         assert!(empty.iter().flat_map(|t| &t.rows).flatten().all(|cell| cell.text != "NaN"));
     }

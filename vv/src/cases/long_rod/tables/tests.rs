@@ -142,8 +142,9 @@ fn the_full_level_fills_the_tables() {
         // Different numbers, far enough apart to be told by.
         records.insert(record(key, [6.0 + 0.01 * k as f64, 1.4 + 0.001 * k as f64]));
     }
-    let [table_5, convergence, validation, inputs, shapes] =
-        all(&records).try_into().expect("five tables");
+    let [table_5, convergence, validation, inputs, shapes, schemes] =
+        all(&records).try_into().expect("six tables");
+    assert_eq!(schemes.rows.len(), 3, "three densities");
     assert_eq!(shapes.rows.len(), 9, "three shapes at three sizes");
     for row in &table_5.rows[..9] {
         assert!(row[3].value.is_some() && row[6].value.is_some(), "{row:?}");
