@@ -59,7 +59,7 @@ impl Case for AlSpherePlate {
     fn scene(&self, preset: Preset, _variant: &str, n: usize) -> AnyScene {
         let material = SPHERE_METAL.material();
         let materials = [material.name.as_str(); 2];
-        let impact = Impact { edge: EDGE, through: n, degrees: 0.0, materials };
+        let impact = Impact { edge: EDGE, through: n, aspect: 1, degrees: 0.0, materials };
         let bodies = impact.bodies();
         let scene = Scene {
             name: ID.into(),

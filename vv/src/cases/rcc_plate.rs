@@ -12,6 +12,7 @@ use whipple_solver::space::scene::Scene;
 use self::problem::{CHOICES, ID, SIZES};
 use super::parts::perforation;
 use super::parts::photos::take;
+use super::parts::shapes::Shapes;
 use super::{Case, Choice, Claim, Level, default_run};
 use crate::plots::Figure;
 use crate::record::{Records, RunKey, Scheme};
@@ -21,6 +22,17 @@ use crate::scene::AnyScene;
 
 /// The case.
 pub(super) struct RccPlate;
+
+/// Which shape of its cells is cheaper.
+const SHAPES: Shapes = Shapes {
+    case: ID,
+    sizes: SIZES,
+    answers: &[
+        ("hole_diameter_cm", "hole", "cm"),
+        ("debris_front_km_s", "front of the cloud", "km/s"),
+    ],
+    which: "edges in the plane of the plate",
+};
 
 /// A run of a variant in `default`, at the smallest size.
 fn varied(variant: &str) -> RunKey {
@@ -59,7 +71,8 @@ impl Case for RccPlate {
          plate of 7 cm, `late` runs to 30 µs; `spall-none` takes the spall strength away, `spall-yield` gives the plate its \
          yield stress as one; `strain-0.25` and `strain-1` are other failure strains of the plate, \
          `compression-0.2` and `compression-0.4` other volumes at which elements fail, `softening-0` a \
-         plate that heat does not harden, `step-0.8` a shorter step. No constant was fitted to this \
+         plate that heat does not harden, `step-0.8` a shorter step, `cells-2` and `cells-4` cells of the plate twice and four times as long in its \
+         plane. No constant was fitted to this \
          case."
     }
 
@@ -125,6 +138,8 @@ impl Case for RccPlate {
     }
 
     fn figures(&self, records: &Records) -> Vec<Figure> {
-        figures::all(records)
+        let mut figures = figures::all(records);
+        figures.extend(SHAPES.figure(records));
+        figures
     }
 }

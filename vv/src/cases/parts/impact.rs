@@ -35,6 +35,8 @@ pub(in crate::cases) struct Impact<'a> {
     pub(in crate::cases) edge: f64,
     /// Cells through it.
     pub(in crate::cases) through: usize,
+    /// How many times as long these are in the plane of the plate.
+    pub(in crate::cases) aspect: usize,
     /// Angle of the flight from the normal, in degrees.
     pub(in crate::cases) degrees: f64,
     /// Materials of sphere and plate.
@@ -60,7 +62,7 @@ impl Impact<'_> {
     /// Sphere and plate: the sphere flies at the middle of the plate.
     pub(in crate::cases) fn bodies(&self) -> Vec<Body> {
         let cell = THICKNESS / self.through as f64;
-        let across = (self.edge / cell).round() as usize;
+        let across = (self.edge / (cell * self.aspect as f64)).round() as usize;
         let [of_sphere, of_plate] = self.materials;
         let middle = 0.5 * THICKNESS;
         let size = Shape::Box { size: [self.edge, THICKNESS, self.edge] };
@@ -87,7 +89,7 @@ mod tests {
         for (through, across) in [(4, 5), (6, 8), (8, 11)] {
             for degrees in [0.0, 60.0] {
                 let materials = ["a", "b"];
-                let bodies = Impact { edge: 5.4, through, degrees, materials }.bodies();
+                let bodies = Impact { edge: 5.4, through, aspect: 1, degrees, materials }.bodies();
                 let [ball, plate] = [&bodies[SPHERE], &bodies[PLATE]];
                 let ratio = cell_size(ball)[0] / cell_size(plate)[1];
                 assert!((ratio - 1.0).abs() < 0.06, "{through}: {} across, {ratio}", ball.cells[0]);

@@ -3,7 +3,7 @@
 use whipple_solver::method::Preset;
 
 use super::problem::{ANGLES, CHOICES, EOS, ID, SIZES, changes, degrees};
-use super::{kernel, varied};
+use super::{SHAPES, kernel, varied};
 use crate::cases::parts::impact::{DIAMETER, SPEED};
 use crate::cases::parts::{metals, perforation};
 use crate::cases::{
@@ -42,7 +42,10 @@ pub(super) fn runs(level: Level) -> Vec<RunKey> {
     if level == Level::Full {
         keys.extend(SIZES[1..].iter().map(|&n| default_run(ID, n)));
         keys.extend(angles().into_iter().skip(1).chain(states().into_iter().skip(1)));
-        keys.extend(changes().iter().map(|variant| varied(variant)));
+        let shapes = SHAPES.runs();
+        let others = changes().iter().map(|variant| varied(variant));
+        keys.extend(others.filter(|key| !shapes.contains(key)));
+        keys.extend(shapes);
         keys.push(paper_run(ID, SIZES[0]));
         keys.extend(Preset::ALL.map(kernel));
     }

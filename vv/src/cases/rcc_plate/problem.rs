@@ -8,6 +8,7 @@ use whipple_solver::units::Units;
 use crate::cases::Choice;
 use crate::cases::parts::impact::{Impact, PLATE, SPHERE_METAL, STOP};
 use crate::cases::parts::metals::{Ductile, Metal};
+use crate::cases::parts::shapes::{LONG, aspect};
 
 pub(super) const ID: &str = "rcc-plate";
 /// Edges of the plate in cm: gap G27, and a plate whose edge no wave reaches and comes back from.
@@ -43,7 +44,7 @@ const COMPRESSION_04: &str = "compression-0.4";
 pub(super) const STEP_08: &str = "step-0.8";
 
 /// Names of the variants: those of the choices, the plain one first, and those of one change each.
-pub(super) const VARIANTS: [&str; 22] = [
+pub(super) const VARIANTS: [&str; 24] = [
     "",
     "eos-rcc_soft",
     "eos-rcc_stiff",
@@ -66,6 +67,8 @@ pub(super) const VARIANTS: [&str; 22] = [
     COMPRESSION_02,
     COMPRESSION_04,
     STEP_08,
+    LONG[0],
+    LONG[1],
 ];
 
 /// Variants that change one thing of the plain one which no option does.
@@ -85,6 +88,8 @@ pub(super) fn words(variant: &str) -> &'static str {
         SOFTENING_0 => "thermal softening of the plate 0, not -1",
         COMPRESSION_02 => "elements fail at 0.2 of their volume",
         COMPRESSION_04 => "elements fail at 0.4 of their volume",
+        "cells-2" => "cells of the plate twice as long in its plane",
+        "cells-4" => "cells of the plate four times as long in its plane",
         STEP_08 => "safety of the time step 0.8",
         "eos-rcc_soft" => "softer equation of state",
         "eos-rcc_stiff" => "stiffer equation of state",
@@ -149,6 +154,7 @@ pub(super) fn scene(preset: Preset, variant: &str, n: usize) -> Scene {
     let impact = Impact {
         edge: if variant == WIDE { WIDE_EDGE } else { EDGE },
         through: n,
+        aspect: aspect(variant),
         degrees: degrees(variant),
         materials: [&materials[0].name, &materials[PLATE].name],
     };

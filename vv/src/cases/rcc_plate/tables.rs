@@ -4,7 +4,7 @@ use whipple_solver::method::Preset;
 
 use super::claims::{SCATTER, angles, nasa, states};
 use super::problem::{ID, SIZES, STEP_08, changes, degrees, words};
-use super::{kernel, varied};
+use super::{SHAPES, kernel, varied};
 use crate::cases::parts::studies::{FORMAL_ORDER, Judged, band, number, percent};
 use crate::cases::{default_run, paper_run};
 use crate::convergence::{Level, grid_study};
@@ -18,7 +18,10 @@ const COST: &str = include_str!("../../../../references/paper_table7_cost.csv");
 
 /// All tables, of what the records have.
 pub(super) fn all(records: &Records) -> Vec<Table> {
-    [Some(validation(records)), moves(records), cost(records)].into_iter().flatten().collect()
+    [Some(validation(records)), moves(records), SHAPES.table(records), cost(records)]
+        .into_iter()
+        .flatten()
+        .collect()
 }
 
 fn norm(records: &Records, key: &RunKey, name: &str) -> Option<f64> {
