@@ -66,7 +66,7 @@ impl Case for RccPlate {
          largest opening of their largest connected set, so that debris within it and gaps elsewhere \
          do not count. Behind is what is farther beyond the rear face than a quarter of the thickness. \
          The plate is perforated when the hole is 0.1 sphere wide and 0.001 of the sphere's mass is \
-         behind. The front of the cloud is the velocity along the normal than which 1 % of the mass \
+         behind, which is seen to 0.1 µs. The front of the cloud is the velocity along the normal than which 1 % of the mass \
          behind is faster; its cone, about the mean velocity, holds 90 % of that mass. `wide` has a \
          plate of 7 cm, `late` runs to 30 µs; `spall-none` takes the spall strength away, `spall-yield` gives the plate its \
          yield stress as one; `strain-0.25` and `strain-1` are other failure strains of the plate, \

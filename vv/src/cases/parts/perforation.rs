@@ -14,9 +14,9 @@ use crate::run::{Findings, RunError, SpaceDriver};
 
 /// Times between two entries of the histories in us, and when the first of them gives way to the second:
 /// the run lands on every entry, which shortens steps.
-const OFTEN: f64 = 0.25;
+const OFTEN: f64 = 0.1;
 const SELDOM: f64 = 0.5;
-const EARLY: f64 = 3.0;
+const EARLY: f64 = 2.0;
 
 /// Over the last so many us the growth of the hole is fitted.
 const LATE: f64 = 1.0;
@@ -157,7 +157,7 @@ fn reached(times: &[f64], values: &[f64], level: f64) -> Option<f64> {
 
 /// Times of the entries up to the end of a run.
 fn times(stop: f64) -> Vec<f64> {
-    let early = (EARLY / OFTEN) as usize;
+    let early = (EARLY / OFTEN).round() as usize;
     let at = |k: usize| match k.checked_sub(early) {
         Some(after) => EARLY + SELDOM * after as f64,
         None => OFTEN * k as f64,
@@ -268,8 +268,8 @@ mod tests {
     #[test]
     fn entries_end_with_the_run() {
         let all = times(10.0);
-        assert_eq!((all.len(), all[1], all[12], all[13], all[26]), (27, 0.25, 3.0, 3.5, 10.0));
-        assert_eq!(times(0.3), [0.0, 0.25, 0.3]);
+        assert_eq!((all.len(), all[1], all[20], all[21], all[36]), (37, 0.1, 2.0, 2.5, 10.0));
+        assert_eq!(times(0.25), [0.0, 0.1, 0.2, 0.25]);
     }
 
     #[test]
