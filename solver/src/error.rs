@@ -58,8 +58,10 @@ pub enum StepError {
     },
     /// The internal energy fell below what the equation of state can represent.
     #[error(
-        "internal energy of particle {particle} is {value:.3e} at t = {time:.6e}, below the floor \
-         {floor:.3e} of its equation of state"
+        "internal energy of particle {particle} is {} at t = {time:.6e}, below the floor {} of its \
+         equation of state",
+        told_apart(*value, *floor),
+        told_apart(*floor, *value)
     )]
     Energy {
         /// Index of the particle.
@@ -85,8 +87,9 @@ pub enum StepError {
     },
     /// The time step became too small to go on.
     #[error(
-        "time step {value:.3e} at t = {time:.6e} is below {floor:.3e}: limited by {limiter} at \
-         particle {particle}"
+        "time step {} at t = {time:.6e} is below {}: limited by {limiter} at particle {particle}",
+        told_apart(*value, *floor),
+        told_apart(*floor, *value)
     )]
     TimeStep {
         /// Index of the particle that voted for the step.
@@ -114,6 +117,13 @@ pub enum StepError {
         /// Neighbours that can be held on one side.
         room: usize,
     },
+}
+
+/// A number with as many digits as tell it from another.
+fn told_apart(value: f64, other: f64) -> String {
+    let text = |x: f64, digits: usize| format!("{x:.digits$e}");
+    let digits = (3..17).find(|&digits| text(value, digits) != text(other, digits));
+    text(value, digits.unwrap_or(17))
 }
 
 impl StepError {

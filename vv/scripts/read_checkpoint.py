@@ -20,7 +20,13 @@ import struct
 import sys
 import zlib
 
-import numpy as np
+try:
+    import numpy as np
+except ImportError:
+    if __name__ != "__main__":
+        raise
+    print("read_checkpoint.py needs numpy: python3 -m pip install numpy", file=sys.stderr)
+    sys.exit(2)
 
 try:
     from blake3 import blake3

@@ -33,8 +33,12 @@ from collections import defaultdict
 from pathlib import Path
 from xml.etree import ElementTree
 
-import numpy as np
-import pyvista as pv
+try:
+    import numpy as np
+    import pyvista as pv
+except ImportError:
+    print("read_vtu.py needs PyVista: python3 -m pip install pyvista", file=sys.stderr)
+    sys.exit(2)
 
 CELL_TYPES = {"vertices": pv.CellType.VERTEX, "hexahedra": pv.CellType.HEXAHEDRON}
 

@@ -248,7 +248,7 @@ struct BenchArgs {
     /// Impacts: threads that are compared with one
     #[arg(long, default_value_t = 2, allow_hyphen_values = true, value_parser = whole(THREADS))]
     threads: usize,
-    /// Impacts: folder for the tables as CSV and the figures as SVG
+    /// Folder for the tables as CSV and, of impacts and rivals, the figures as SVG
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 }

@@ -85,7 +85,8 @@ pub fn scene(contender: Contender, integrator: Integrator, n: usize) -> Scene {
     Scene {
         name: "standing wave".into(),
         units: Units::None,
-        stop_time: 1e6,
+        // About the time in which sound crosses the box: a step below a billionth of it is refused.
+        stop_time: 1.0,
         method,
         boundaries: Boundaries { left: Boundary::Mirror(0.0), right: Boundary::Mirror(1.0) },
         materials: vec![Material { name: "gas".into(), density: 1.0, eos }],

@@ -87,7 +87,7 @@ pub fn redundant<'a>(scene: &AnyScene, overrides: &'a [String]) -> Vec<&'a Strin
 }
 
 /// The key of an override, without `method.` before it.
-fn key(text: &str) -> &str {
+pub(crate) fn key(text: &str) -> &str {
     let key = text.split('=').next().unwrap_or_default().trim();
     key.strip_prefix("method.").unwrap_or(key)
 }

@@ -4,8 +4,9 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use crate::cases::{Level, find};
 use crate::files::{FileError, ensure_writable_dir, write_atomic};
-use crate::record::{PictureRecord, Records};
+use crate::record::{PictureRecord, Records, RunKey, RunRecord};
 use crate::report::Drawing;
 use crate::space::measured::Photo;
 
@@ -15,8 +16,7 @@ pub const PICTURES: &str = "pictures";
 /// A picture that is not the one of its record.
 #[derive(Debug, thiserror::Error)]
 #[error(
-    "{}: {found}, wanted the picture of {record} (BLAKE3 {wanted}); `{command}` or `whipple vv` makes \
-     it again",
+    "{}: {found}, wanted the picture of {record} (BLAKE3 {wanted}); `{command}` makes it again",
     path.display()
 )]
 pub struct PictureError {
@@ -28,7 +28,7 @@ pub struct PictureError {
     pub record: String,
     /// The hash in the record.
     pub wanted: String,
-    /// The command that repeats the run.
+    /// The command that makes it again.
     pub command: String,
 }
 
@@ -44,6 +44,15 @@ pub fn write_photos(folder: &Path, photos: &[Photo]) -> Result<(), FileError> {
         }
     }
     Ok(())
+}
+
+/// The command that makes a record of a report and its pictures again, of the lowest level that does.
+fn command_for(record: &RunRecord, report: &Path) -> String {
+    let RunKey { case, .. } = &record.key;
+    let runs =
+        |level: &Level| find(case).is_some_and(|case| case.runs(*level).contains(&record.key));
+    let level = Level::ALL.into_iter().find(runs).unwrap_or(Level::Full);
+    format!("whipple vv {case} --level {} --out {}", level.name(), report.display())
 }
 
 /// The pictures of all records of a folder, by their ids.
@@ -66,7 +75,7 @@ pub fn read_pictures(
                     Err(error) => format!("cannot be read ({error})"),
                 };
                 let (record_file, wanted) = (record.key.file_name(), wanted.to_owned());
-                let command = record.provenance.command.clone();
+                let command = command_for(record, folder.parent().unwrap_or(folder));
                 Err(PictureError { path, found, record: record_file, wanted, command })
             };
             let drawing = Drawing::Picture {

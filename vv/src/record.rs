@@ -402,11 +402,8 @@ impl Records {
     /// The first file that cannot be read or is not a record.
     pub fn read(folder: &Path) -> Result<Self, RecordError> {
         let mut records = Self::default();
-        for entry in std::fs::read_dir(folder).map_err(unreadable(folder))? {
-            let path = entry.map_err(unreadable(folder))?.path();
-            if path.extension().is_some_and(|e| e == "json") {
-                records.insert(RunRecord::read(&path)?);
-            }
+        for path in files_in(folder)? {
+            records.insert(RunRecord::read(&path)?);
         }
         Ok(records)
     }
@@ -433,6 +430,21 @@ impl Records {
     }
 }
 
+/// The `.json` files of a folder.
+///
+/// # Errors
+/// A folder that cannot be read.
+pub fn files_in(folder: &Path) -> Result<Vec<PathBuf>, RecordError> {
+    let mut paths = Vec::new();
+    for entry in std::fs::read_dir(folder).map_err(unreadable(folder))? {
+        let path = entry.map_err(unreadable(folder))?.path();
+        if path.extension().is_some_and(|e| e == "json") {
+            paths.push(path);
+        }
+    }
+    Ok(paths)
+}
+
 /// What the system says of a path.
 fn unreadable(path: &Path) -> impl FnOnce(std::io::Error) -> RecordError {
     let path = path.to_owned();
@@ -442,8 +454,13 @@ fn unreadable(path: &Path) -> impl FnOnce(std::io::Error) -> RecordError {
 fn parse(path: &Path, text: &str) -> Result<RunRecord, RecordError> {
     let malformed = |reason: String| RecordError::Malformed { path: path.to_owned(), reason };
     let mut reader = serde_json::Deserializer::from_str(text);
-    let record: RunRecord = serde_path_to_error::deserialize(&mut reader)
-        .map_err(|e| malformed(format!("at `{}`: {}", e.path(), e.inner())))?;
+    let record: RunRecord = serde_path_to_error::deserialize(&mut reader).map_err(|e| {
+        malformed(match e.inner() {
+            // What it lacks first says nothing of where the rest went.
+            cut if cut.is_eof() => format!("the file is cut at line {}", cut.line()),
+            other => format!("at `{}`: {other}", e.path()),
+        })
+    })?;
     if record.schema != SCHEMA {
         return Err(malformed(format!("it has format {}", record.schema)));
     }

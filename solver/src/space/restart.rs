@@ -337,27 +337,18 @@ impl Simulation {
     }
 
     /// Time, what the next step's length depends on, and what was allowed the last one.
-    fn clock(&self) -> [f64; 7 + VOTERS] {
-        let Self { time, dt, kick, first_dt, free_dt, allowed, votes, .. } = self;
-        let mut clock = [0.0; 7 + VOTERS];
-        clock[..7].copy_from_slice(&[
-            *time,
-            *dt,
-            *kick,
-            *first_dt,
-            *free_dt,
-            allowed.sound,
-            allowed.density,
-        ]);
-        clock[7..].copy_from_slice(&votes.allowed);
+    fn clock(&self) -> [f64; 6 + VOTERS] {
+        let Self { time, dt, kick, free_dt, allowed, votes, .. } = self;
+        let mut clock = [0.0; 6 + VOTERS];
+        clock[..6].copy_from_slice(&[*time, *dt, *kick, *free_dt, allowed.sound, allowed.density]);
+        clock[6..].copy_from_slice(&votes.allowed);
         clock
     }
 
     fn set_clock(&mut self, clock: &[f64]) {
-        let Ok(clock) = <[f64; 7 + VOTERS]>::try_from(clock) else { return };
-        let [time, dt, kick, first, free, sound, density, allowed @ ..] = clock;
-        (self.time, self.dt, self.kick) = (time, dt, kick);
-        (self.first_dt, self.free_dt) = (first, free);
+        let Ok(clock) = <[f64; 6 + VOTERS]>::try_from(clock) else { return };
+        let [time, dt, kick, free, sound, density, allowed @ ..] = clock;
+        (self.time, self.dt, self.kick, self.free_dt) = (time, dt, kick, free);
         (self.allowed.sound, self.allowed.density) = (sound, density);
         self.votes.allowed = allowed;
     }

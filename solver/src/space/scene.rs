@@ -351,10 +351,8 @@ impl Scene {
             };
             particles = particles.saturating_add(body.validate(self.method.balance, &key)?);
             if body.mapping.is_some() && self.method.density != Density::Hybrid {
-                let wanted =
-                    "contacts and kernels know equal cells alone: mapped ones need `hybrid`";
-                let given = format!("{:?}", self.method.density);
-                return Err(SceneError::new("method.density", given, wanted));
+                let wanted = "contacts and kernels know equal cells alone, and its lattice is mapped: that needs `hybrid`";
+                return Err(SceneError::new("method.density", self.method.density.name(), wanted));
             }
             let gas = matches!(self.materials[material].eos, EosData::IdealGas { .. });
             if body.mapping.is_some() && !gas && self.method.hourglass > 0.0 {

@@ -35,9 +35,6 @@ const LEAST_PART: f64 = 0.5;
 /// on a time, pressures lag for a step.
 const SHORT: f64 = 1e-6;
 
-/// Smallest time step over the first one.
-const COLLAPSED: f64 = 1e-6;
-
 /// A scene in motion, in three dimensions.
 #[derive(Debug, Clone)]
 pub struct Simulation {
@@ -65,10 +62,9 @@ pub struct Simulation {
     pub(super) dt: f64,
     /// Length of the last kick.
     pub(super) kick: f64,
-    pub(super) first_dt: f64,
     /// Length that the last drift was allowed, whatever time it was to land on or step it followed.
     pub(super) free_dt: f64,
-    /// A step below this has collapsed, whatever the first one was.
+    /// A step below this has collapsed.
     smallest_step: f64,
     /// Longest step in which no body leaps through another that it does not touch yet.
     leap: f64,
@@ -165,7 +161,6 @@ impl Simulation {
             time: 0.0,
             dt: 0.0,
             kick: 0.0,
-            first_dt: 0.0,
             free_dt: 0.0,
             smallest_step: SMALLEST_STEP * scene.stop_time,
             leap: leap(&mesh, &state),
@@ -361,12 +356,8 @@ impl Simulation {
             (Voter::Leap, self.leap),
             (Voter::Growth, growth),
         ]);
-        if self.dt == 0.0 {
-            // In cold gas nothing limits it.
-            self.first_dt = dt.min(self.smallest_step / SMALLEST_STEP);
-        }
         self.free_dt = dt;
-        let floor = (COLLAPSED * self.first_dt).max(self.smallest_step);
+        let floor = self.smallest_step;
         if dt.is_nan() || dt < floor {
             let (particle, time, value) = (self.soonest(), self.time, dt);
             let limiter = self.votes.last.map_or("nothing", Voter::cause);

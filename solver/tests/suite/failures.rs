@@ -119,6 +119,15 @@ fn messages_say_who_what_when() {
         StepError::TimeStep { particle, time, value: 1e-15, floor: 1e-12, limiter: "sound" },
         StepError::Neighbours { particle, time, room: 63 },
     ];
+    let near = (1.0 - 4e-9, 1.0);
+    let told = StepError::Energy { particle, time, value: near.0, floor: near.1 }.to_string();
+    assert!(
+        told.contains(" is 9.99999996e-1 at ") && told.contains(" floor 1.00000000e0 of"),
+        "{told}"
+    );
+    let next =
+        StepError::Energy { particle, time, value: 1.0f64.next_down(), floor: 1.0 }.to_string();
+    assert!(next.contains(" is 9.999999999999999e-1 at "), "{next}");
     let text = errors.map(|e| format!("{}: {e}", e.kind())).join("\n");
     insta::assert_snapshot!(text, @r"
     not finite: velocity of particle 7 is NaN at t = 2.500000e-1

@@ -182,50 +182,49 @@ fn grid(table: &Table) -> String {
     out + &table.caption + "\n"
 }
 
-/// Runs the comparisons of the density schemes and prints them.
+/// Runs the comparisons of the density schemes.
 fn density(args: &BenchArgs) -> Result<(), Failure> {
     let natural = Preset::Default.method().kernel_support;
     let with = |density, support| Contender { density, support };
     let paper = with(Density::Nonholonomic, natural);
-    let rows = [
+    let rivals = [
         ("kernel, equal contact list", with(Density::Kernel, EQUAL_LIST)),
         ("kernel, natural support", with(Density::Kernel, natural)),
         ("hybrid", with(Density::Hybrid, natural)),
     ];
-    let head = format!(
-        "{:<12} {:<28} {:>8} {:>17} {:>12} {:>12} {:>12}\n",
-        "integrator",
-        "against nonholonomic",
-        "ratio",
-        "spread",
-        "ns/particle",
-        "ns/pair",
-        "A: ns/part."
-    );
-    print(&head)?;
+    let mut rows = Vec::new();
     for integrator in [Integrator::SinglePass, Integrator::Compatible] {
-        for (name, rival) in rows {
-            let found = compare([paper, rival], integrator, args.n, args.rounds)?;
-            print(&row(integrator, name, &found))?;
+        for (name, rival) in rivals {
+            say(&format!("{name} against nonholonomic, {} ...", integrator.name()));
+            rows.push(row(
+                integrator,
+                name,
+                &compare([paper, rival], integrator, args.n, args.rounds)?,
+            ));
         }
     }
-    print(
-        "CPU time, medians over A B B A rounds; ns per particle and step, and per pair and step.\n",
-    )
+    let number = |name: &str| Column::number(name, "");
+    let columns = vec![
+        Column::text("integrator"),
+        Column::text("against nonholonomic"),
+        number("ratio"),
+        number("least"),
+        number("greatest"),
+        number("ns/particle"),
+        number("ns/pair"),
+        number("ns/particle, nonholonomic"),
+    ];
+    let caption = "CPU time, medians over A B B A rounds, and the least and greatest ratio of a round; \
+                   nanoseconds per particle and step, and per pair and step.";
+    let table = Table { id: "density".into(), caption: caption.into(), columns, rows };
+    show(&[table], args, "")
 }
 
-fn row(integrator: Integrator, name: &str, found: &Comparison) -> String {
+fn row(integrator: Integrator, name: &str, found: &Comparison) -> Vec<Cell> {
     let (low, high) = found.spread();
-    let integrator = match integrator {
-        Integrator::SinglePass => "single-pass",
-        Integrator::Compatible => "compatible",
-    };
-    let spread = format!("{low:.3} .. {high:.3}");
-    format!(
-        "{integrator:<12} {name:<28} {:>8.3} {spread:>17} {:>12.1} {:>12.1} {:>12.1}\n",
-        found.median(),
-        found.b.per_particle_step,
-        found.b.per_pair,
-        found.a.per_particle_step,
-    )
+    let mut cells = vec![integrator.name().into(), name.into()];
+    cells.extend([found.median(), low, high].map(|ratio| Cell::number(ratio, 4)));
+    let times = [found.b.per_particle_step, found.b.per_pair, found.a.per_particle_step];
+    cells.extend(times.map(|time| Cell::number(time, 4)));
+    cells
 }

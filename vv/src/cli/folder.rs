@@ -1,51 +1,156 @@
-//! The folder of `--out`: results of one run do not go among those of another.
+//! The folder of `--out`: results of one run do not go among those of another, nor over files of the user.
 
-use std::path::Path;
+use std::fs;
+use std::path::{Path, PathBuf};
 
 use super::Failure;
 use crate::checkpoint::{Reader, list};
-use crate::record::RunRecord;
+use crate::record::{RunRecord, files_in};
+use crate::report;
 use crate::run::Request;
 use crate::scene::AnyScene;
 use crate::space::checkpoint::{command_in, scene_hash};
+use crate::space::recorder::{FRAMES, LEDGER};
+use crate::suite::records_folder;
 
 /// Name of the record in the folder of a run.
 pub(super) const RECORD: &str = "record.json";
+/// Name of the scene as it was run.
+pub(super) const SCENE: &str = "scene.toml";
+/// Names of the fields and of the histories.
+pub(super) const PROFILE: &str = "profile.csv";
+pub(super) const HISTORY: &str = "history.csv";
 
-/// Refuses a folder that holds the record or a checkpoint of another run. The same run made again may
-/// replace its own; one that goes on may also end at another time.
+/// What a folder holds that a run may not start anew in.
+enum Other {
+    /// Another run, with its command.
+    Run(String),
+    /// A checkpoint of a run that is not finished, and the command of that run if it is another.
+    Unfinished(PathBuf, Option<String>),
+}
+
+/// A whole checkpoint of the folder.
+struct Kept {
+    path: PathBuf,
+    command: Option<String>,
+    /// Whether it is of the scene that is asked for, whenever that ends.
+    same_scene: bool,
+}
+
+/// Refuses a folder that holds the record or a checkpoint of another run, or of this one if it is not
+/// finished and does not go on, or files that only have the names of results. A finished run made again
+/// replaces its own results; one that goes on may also end at another time. `again` is the command that
+/// goes on with the run that is asked for, up to its folder.
 pub(super) fn refuse_another_run(
     out: &Path,
     request: &Request,
     goes_on: bool,
+    again: &str,
 ) -> Result<(), Failure> {
-    let record = out.join(RECORD);
-    let of_record =
-        if record.exists() { record_of_another(&record, request, goes_on)? } else { None };
-    let Some(other) = of_record.or_else(|| checkpoint_of_another(out, request)) else {
+    let path = out.join(RECORD);
+    let record = path.exists().then(|| RunRecord::read(&path)).transpose()?;
+    let kept = kept(out, request);
+    let known = record.is_some() || !kept.is_empty();
+    let folder = out.display();
+    match in_the_way(record.as_ref(), kept, request, goes_on) {
+        Some(Other::Run(command)) => Err(Failure::usage(format!(
+            "{folder} holds another run, {command}: name another folder with --out, or move that one away"
+        ))),
+        Some(Other::Unfinished(checkpoint, other)) => {
+            let which = if other.is_some() { "another run" } else { "a run" };
+            let again = other.as_deref().unwrap_or(again);
+            let checkpoint = checkpoint.display();
+            Err(Failure::usage(format!(
+                "{folder} holds {which} that is not finished; continue it with\n  {again} --out {folder} \
+                 --resume {checkpoint}\nor start anew: name another folder with --out, or delete that one"
+            )))
+        }
+        None => Ok(()),
+    }?;
+    if known {
         return Ok(());
-    };
-    Err(Failure::usage(format!(
-        "{} holds another run, {other}: name another folder with --out, or move that one away",
-        out.display()
-    )))
+    }
+    // A run that goes on reads ledger and frames, and refuses what is none of its own.
+    let [frames, index] = FRAMES;
+    let anew = [out.join(LEDGER), out.join(frames).join(index)];
+    let names = [SCENE, PROFILE, HISTORY].map(|name| out.join(name));
+    refuse_files(names.into_iter().chain(anew.into_iter().filter(|_| !goes_on)))
 }
 
-/// The run of a record, if it is not the one that is asked for.
-fn record_of_another(
-    path: &Path,
+/// Refuses the folder of a report that holds files with its names, and no record.
+pub(super) fn refuse_no_report(out: &Path, pages: &[&str]) -> Result<(), Failure> {
+    let read = |path: PathBuf| RunRecord::read(&path).is_ok();
+    if files_in(&records_folder(out)).is_ok_and(|paths| paths.into_iter().any(read)) {
+        return Ok(());
+    }
+    let own = [report::INDEX, report::TEXT];
+    refuse_files(own.iter().chain(pages).map(|name| out.join(name)))
+}
+
+/// Refuses to write over files that no record explains.
+fn refuse_files(paths: impl Iterator<Item = PathBuf>) -> Result<(), Failure> {
+    match { paths }.find(|path| path.exists()) {
+        None => Ok(()),
+        Some(path) => Err(Failure::usage(format!(
+            "{} is there already, with no record beside it that says what it is: name another folder with \
+             --out, or move that file away",
+            path.display()
+        ))),
+    }
+}
+
+/// Takes away what an earlier run of the same left, before it starts anew: a checkpoint of it is none of
+/// the run that now fills the ledger.
+pub(super) fn clear(out: &Path) -> Result<(), Failure> {
+    let old = list(out).unwrap_or_default().into_iter().chain([out.join(RECORD)]);
+    for path in old.filter(|path| path.exists()) {
+        fs::remove_file(&path).map_err(|error| {
+            Failure::usage(format!("cannot remove {}: {error}", path.display()))
+        })?;
+    }
+    Ok(())
+}
+
+/// What keeps a run from a folder with this record and these checkpoints, the newest first.
+fn in_the_way(
+    record: Option<&RunRecord>,
+    kept: Vec<Kept>,
     request: &Request,
     goes_on: bool,
-) -> Result<Option<String>, Failure> {
-    let record = RunRecord::read(path)?;
+) -> Option<Other> {
+    if let Some(record) = record.filter(|record| !is_of(record, request, goes_on)) {
+        return Some(Other::Run(format!("`{}`", record.provenance.command)));
+    }
+    let finished = record.map(|record| &record.provenance.command);
+    let own = |kept: &Kept| {
+        let command = kept.command.as_ref();
+        command == Some(&request.command) || command.is_some() && command == finished
+    };
+    for (age, kept) in kept.into_iter().enumerate() {
+        // Earlier ones may be of a run that was to end sooner.
+        let same = own(&kept) || kept.same_scene && (goes_on || age > 0);
+        let named = kept.command.as_ref().map(|command| format!("`{command}`"));
+        match (same, record) {
+            (true, Some(_)) => {}
+            (true, None) if goes_on => {}
+            (true, None) => return Some(Other::Unfinished(kept.path, None)),
+            (false, None) if !goes_on && kept.command.is_some() => {
+                return Some(Other::Unfinished(kept.path, kept.command));
+            }
+            (false, _) => return Some(Other::Run(named.unwrap_or("of another scene".to_owned()))),
+        }
+    }
+    None
+}
+
+/// Whether a record is of the run that is asked for.
+fn is_of(record: &RunRecord, request: &Request, goes_on: bool) -> bool {
     let wanted = request.scene.as_ref().map(as_read);
-    let mut scene = record.scene;
+    let mut scene = record.scene.clone();
     if let (Some(scene), Some(wanted), true) = (&mut scene, &wanted, goes_on) {
         scene.set_stop_time(wanted.stop_time());
     }
-    let same = record.provenance.command == request.command
-        || (record.key == request.key && scene == wanted);
-    Ok((!same).then(|| format!("`{}`", record.provenance.command)))
+    record.provenance.command == request.command || (record.key == request.key && scene == wanted)
 }
 
 /// A scene as a record of it is read: a number may differ in its last bit.
@@ -54,16 +159,13 @@ fn as_read(scene: &AnyScene) -> AnyScene {
     serde_json::from_str(&text).unwrap_or_else(|_| scene.clone())
 }
 
-/// The run of the newest whole checkpoint of another scene. Damaged ones cannot say what they are of.
-fn checkpoint_of_another(out: &Path, request: &Request) -> Option<String> {
+/// The whole checkpoints of a folder, the newest first. Damaged ones cannot say what they are of.
+fn kept(out: &Path, request: &Request) -> Vec<Kept> {
     let own = request.scene.as_ref().and_then(AnyScene::space).map(scene_hash);
-    let whole = |path| Reader::open_any(path).ok();
-    let paths = list(out).unwrap_or_default();
-    paths.iter().rev().filter_map(|path| whole(path.as_path())).find_map(|mut reader| {
-        let command = command_in(&mut reader).ok().flatten();
-        let same = own.as_ref() == Some(&reader.meta().scene)
-            || command.as_ref() == Some(&request.command);
-        let of = || command.map_or("of another scene".to_owned(), |command| format!("`{command}`"));
-        (!same).then(of)
-    })
+    let said = |path: PathBuf| {
+        let mut reader = Reader::open_any(&path).ok()?;
+        let same_scene = own.as_ref() == Some(&reader.meta().scene);
+        Some(Kept { path, same_scene, command: command_in(&mut reader).ok().flatten() })
+    };
+    list(out).unwrap_or_default().into_iter().rev().filter_map(said).collect()
 }

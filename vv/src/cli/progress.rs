@@ -25,8 +25,6 @@ const PART: f64 = 0.1;
 /// What is known of a run before it begins.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Outlook {
-    /// Unit of simulated time.
-    pub(super) unit: &'static str,
     /// Time and particle-steps that it goes on from.
     pub(super) from: (f64, u64),
     /// Time on the clock after which it is to stop.
@@ -42,6 +40,8 @@ pub(super) struct Progress {
 
 /// What changes during a run.
 struct State {
+    /// Unit of simulated time.
+    unit: &'static str,
     start: Instant,
     pace: Pace,
     drift: Option<f64>,
@@ -69,16 +69,17 @@ impl Progress {
         }
         let start = Instant::now();
         let pace = Pace::from(outlook.from.0);
-        let state = State { start, pace, drift: None, said: (!terminal).then_some(start) };
+        let state =
+            State { unit: "", start, pace, drift: None, said: (!terminal).then_some(start) };
         Self { bar, outlook, state: Mutex::new(state) }
     }
 
-    /// Starts a new run on the same line.
-    pub(super) fn start(&self, what: &str) {
+    /// Starts a new run on the same line, in this unit of simulated time.
+    pub(super) fn start(&self, what: &str, unit: &'static str) {
         self.bar.reset();
         self.bar.set_prefix(what.to_owned());
         let mut state = self.state();
-        (state.start, state.drift) = (Instant::now(), None);
+        (state.unit, state.start, state.drift) = (unit, Instant::now(), None);
         state.pace = Pace::from(self.outlook.from.0);
     }
 
@@ -138,7 +139,7 @@ impl Pace {
 impl Monitor for Progress {
     fn tick(&self, time: f64, stop: f64, particle_steps: u64) -> bool {
         let mut state = self.state();
-        let Outlook { unit, from: (_, before), .. } = self.outlook;
+        let (unit, (_, before)) = (state.unit, self.outlook.from);
         let seconds = state.start.elapsed().as_secs_f64().max(1e-9);
         let rate = particle_steps.saturating_sub(before) as f64 / seconds / 1e6;
         let left = state.pace.left(seconds, time, stop);
@@ -184,6 +185,16 @@ mod tests {
         pace.left(25.0, 9.0, 12.0);
         assert_eq!(pace.left(35.0, 10.0, 12.0), Some(20.0));
         assert_eq!(pace.left(55.0, 12.0, 12.0), Some(0.0));
+    }
+
+    #[test]
+    fn lines_have_the_unit_of_their_run() {
+        let progress = Progress::new(Outlook::default());
+        for (unit, said) in [("us", "t = 2.0000e0 us, "), ("", "t = 2.0000e0, ")] {
+            progress.start("a run", unit);
+            progress.tick(2.0, 4.0, 1000);
+            assert!(progress.bar.message().starts_with(said), "{}", progress.bar.message());
+        }
     }
 
     #[test]

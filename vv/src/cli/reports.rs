@@ -6,7 +6,9 @@ use std::time::Duration;
 
 use clap::ValueEnum;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use whipple_solver::units::Dimension;
 
+use super::folder::refuse_no_report;
 use super::progress::{Outlook, Progress};
 use super::run::find_all;
 use super::sizes::expect;
@@ -18,7 +20,7 @@ use crate::files::{ensure_writable_dir, write_atomic};
 use crate::memory::Keeps;
 use crate::pictures::read_pictures;
 use crate::plots;
-use crate::record::{Outcome, Records};
+use crate::record::{Outcome, Records, RunKey};
 use crate::report::{self, Drawing, Pictures, Report};
 use crate::suite::{Forecast, covers, forecast, records_folder, run_suite, scene_of, verdicts};
 use crate::words::counted;
@@ -32,6 +34,7 @@ const NAMED: usize = 5;
 /// Runs, judges, reports.
 pub(super) fn vv(args: &VvArgs) -> Result<u8, Failure> {
     let cases = find_all(&args.cases)?;
+    refuse_no_report(&args.out, if args.single_file { &[SINGLE_FILE] } else { &[] })?;
     ensure_writable_dir(&args.out)?;
     // Records that cannot be read tell nothing, and may be replaced by this very run.
     let records = Records::read(&records_folder(&args.out)).unwrap_or_default();
@@ -47,7 +50,7 @@ pub(super) fn vv(args: &VvArgs) -> Result<u8, Failure> {
     let pool = pool.map_err(|e| Failure::usage(format!("cannot start a thread: {e}")))?;
     let ended = pool.install(|| {
         run_suite(&cases, args.level, &args.out, &progress, |key, record| match record {
-            None => progress.start(&key.file_name()),
+            None => progress.start(&key.file_name(), unit_of_time(&cases, key)),
             Some(record) => {
                 let how = match &record.outcome {
                     Outcome::Completed => format!("{:.2} s", record.cpu_seconds),
@@ -66,6 +69,13 @@ pub(super) fn vv(args: &VvArgs) -> Result<u8, Failure> {
     }
     let ran = |v: &&Verdict| cases.iter().any(|c| c.id() == v.claim.case);
     conclude(made.verdicts.iter().filter(ran), &pages)
+}
+
+/// Label of the unit of time in the scene of a run.
+fn unit_of_time(cases: &[&'static dyn Case], key: &RunKey) -> &'static str {
+    let case = cases.iter().find(|case| case.id() == key.case);
+    let scene = case.and_then(|case| scene_of(*case, key));
+    scene.map_or("", |scene| scene.units().label(Dimension::Time))
 }
 
 /// What is about to run, how long it takes, and what is left to other levels.
@@ -212,14 +222,19 @@ struct Made {
 /// The report of a folder of records, in memory.
 fn made(folder: &Path) -> Result<Made, Failure> {
     let there = records_folder(folder);
-    if !there.is_dir() {
-        return Err(Failure::usage(format!(
-            "no report in {}: it has no folder `records`; `whipple vv --out {0}` makes one, --out names \
-             another",
+    let nothing = |what: &str| {
+        Failure::usage(format!(
+            "no report in {}: {what}; `whipple vv --out {0}` makes one, --out names another",
             folder.display()
-        )));
+        ))
+    };
+    if !there.is_dir() {
+        return Err(nothing("it has no folder `records`"));
     }
     let records = Records::read(&there)?;
+    if records.iter().next().is_none() {
+        return Err(nothing("its folder `records` holds no record"));
+    }
     // Pictures are not drawn again: they must be those of the records.
     let mut drawings = read_pictures(&there, &records).map_err(Failure::usage)?;
     let verdicts = verdicts(&records);
@@ -322,6 +337,16 @@ mod tests {
             "level full: 7 runs of long-rod, about 2m of CPU time by the records of the folder (1m 10s of it \
              scaled from other sizes or schemes); no record tells the time of 1"
         );
+    }
+
+    /// Times of a suite are in the units of each of its runs.
+    #[test]
+    fn times_of_a_suite_have_units() {
+        for (id, unit) in [("long-rod", "us"), ("noh", "")] {
+            let case = crate::cases::find(id).expect("the case");
+            let key = case.runs(Level::Quick).remove(0);
+            assert_eq!(unit_of_time(&ALL, &key), unit, "{id}");
+        }
     }
 
     #[test]

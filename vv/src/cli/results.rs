@@ -5,7 +5,7 @@ use std::path::Path;
 
 use serde::Serialize;
 
-use super::folder::RECORD;
+use super::folder::{HISTORY, PROFILE, RECORD, SCENE};
 use super::{Failure, program};
 use crate::cases::Case;
 use crate::claims::{Claim, Kind, Quantity, Status, Verdict, Weight, judge};
@@ -288,9 +288,9 @@ pub(super) fn write_outputs(out: &Path, case: &dyn Case, done: &Run) -> Result<(
     let record = &done.record;
     if let Some(scene) = &record.scene {
         let toml = toml::to_string_pretty(scene).map_err(Failure::usage)?;
-        write_atomic(&out.join("scene.toml"), toml.as_bytes())?;
+        write_atomic(&out.join(SCENE), toml.as_bytes())?;
     }
-    for (name, series) in [("profile.csv", &record.profile), ("history.csv", &record.history)] {
+    for (name, series) in [(PROFILE, &record.profile), (HISTORY, &record.history)] {
         if let Some(series) = series {
             write_atomic(&out.join(name), csv(case, series)?.as_bytes())?;
         }

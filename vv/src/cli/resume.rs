@@ -67,7 +67,7 @@ fn other_scene(path: &Path, command: &str) -> String {
              the same; go on with that version, or start again without --resume"
         ),
         Some(written) => format!(
-            "it is of another scene\n  it was written by  {written}\n  and this run is    {command}\n  \
+            "it is of another scene\n  it was written by  `{written}`\n  and this run is    `{command}`\n  \
              {advice}"
         ),
         None => format!("it is of another scene than `{command}`; {advice}"),

@@ -6,11 +6,11 @@ use whipple_solver::method::Preset;
 use whipple_solver::space;
 use whipple_solver::units::{Dimension, Units};
 
-use super::folder::refuse_another_run;
+use super::folder::{clear, refuse_another_run};
 use super::progress::{Outlook, Progress};
 use super::results::{Bounds, json, text, write_outputs};
 use super::resume::{refusal, resume};
-use super::sizes::{expect, no_size};
+use super::sizes::{cannot, foresee};
 use super::{Failure, INTERRUPTED, NUMERICAL_FAILURE, RunArgs, as_called, print, program, say};
 use crate::cases::{self, Case};
 use crate::files::ensure_writable_dir;
@@ -28,18 +28,20 @@ use crate::suite::{command_of, scene_of};
 pub(super) fn run(args: &RunArgs) -> Result<u8, Failure> {
     let case = find(&args.case)?;
     let variant = variant(case, args)?;
-    let (request, bounds) = request(case, &variant, args)?;
+    let (request, bounds, mut notes) = request(case, &variant, args)?;
     let scene = request.scene.clone();
     let (options, outlook) = match &scene {
-        Some(AnyScene::Space(scene)) => options(scene, args, &request)?,
+        Some(AnyScene::Space(scene)) => options(scene, args, &request, &mut notes)?,
         _ => (only_in_space(args, &request)?, Outlook::default()),
     };
     let unit = scene.as_ref().map_or("", |scene| scene.units().label(Dimension::Time));
 
-    let progress = Progress::new(Outlook { unit, ..outlook });
-    progress.start(case.id());
+    let progress = Progress::new(outlook);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(args.threads).build();
     let pool = pool.map_err(|e| Failure::usage(format!("cannot start threads: {e}")))?;
+    // Not before a refusal.
+    notes.iter().for_each(|note| say(&format!("note: {note}")));
+    progress.start(case.id(), unit);
     let command = request.command.clone();
     let done = pool.install(|| run_with(case, request, options, &progress));
     progress.done();
@@ -94,7 +96,7 @@ fn only_in_space(args: &RunArgs, request: &Request) -> Result<SpaceOptions, Fail
         return Err(Failure::usage(message));
     }
     if let Some(out) = &args.out {
-        refuse_another_run(out, request, false)?;
+        refuse_another_run(out, request, false, &request.command)?;
         ensure_writable_dir(out)?;
     }
     Ok(SpaceOptions::default())
@@ -106,14 +108,18 @@ fn options(
     scene: &space::Scene,
     args: &RunArgs,
     request: &Request,
+    notes: &mut Vec<String>,
 ) -> Result<(SpaceOptions, Outlook), Failure> {
     let command = &request.command;
     let every = args.vtu.map(|every| every.in_units("--vtu", scene.units)).transpose()?;
     let from = args.resume.as_deref().map(|path| resume(path, scene, command)).transpose()?;
     let recorder = match &args.out {
         Some(out) => {
-            refuse_another_run(out, request, from.is_some())?;
+            refuse_another_run(out, request, from.is_some(), &repeated(args, command))?;
             ensure_writable_dir(out)?;
+            if from.is_none() {
+                clear(out)?;
+            }
             let recorder = Recorder::new(out, scene, every, from.as_ref());
             let recorder = recorder.map_err(Failure::usage)?.of(command);
             Some(match args.checkpoint {
@@ -122,9 +128,9 @@ fn options(
             })
         }
         None => {
-            say(
-                "note: nothing of this run is kept without --out: no record, pictures or checkpoint",
-            );
+            let note =
+                "nothing of this run is kept without --out: no record, pictures or checkpoint";
+            notes.push(note.to_owned());
             None
         }
     };
@@ -132,7 +138,6 @@ fn options(
     let outlook = Outlook {
         from: done.map_or((0.0, 0), |s| (s.time(), s.counters().particle_steps)),
         max_wall: args.max_wall,
-        unit: "",
     };
     let pictures = recorder.is_some();
     Ok((SpaceOptions { from, recorder, pictures }, outlook))
@@ -147,6 +152,15 @@ fn how_to_go_on(args: &RunArgs, command: &str, checkpoint: Option<&Path>) -> Str
             "; nothing is kept without --out".into()
         };
     };
+    let again = repeated(args, command);
+    let [out, checkpoint] = [out, checkpoint].map(|path| path.display());
+    format!(
+        "; the state is kept in {checkpoint}; continue with\n  {again} --out {out} --resume {checkpoint}"
+    )
+}
+
+/// The command of a run with the options that its record does not know of, but for those of its folder.
+fn repeated(args: &RunArgs, command: &str) -> String {
     let mut again = command.to_owned();
     if let Some(every) = args.vtu {
         again += &format!(" --vtu {every}");
@@ -159,41 +173,57 @@ fn how_to_go_on(args: &RunArgs, command: &str, checkpoint: Option<&Path>) -> Str
         let every = humantime::format_duration(every).to_string().replace(' ', "");
         again += &format!(" --checkpoint {every}");
     }
-    let [out, checkpoint] = [out, checkpoint].map(|path| path.display());
-    format!(
-        "; the state is kept in {checkpoint}; continue with\n  {again} --out {out} --resume {checkpoint}"
-    )
+    again
 }
 
-/// Says what is compared with what where a run ends at another time, or is of another problem.
-fn note_changes(case: &dyn Case, scene: &AnyScene, mut plain: AnyScene) {
+/// What is compared with what where a run ends at another time, or is of another problem.
+fn note_changes(case: &dyn Case, scene: &AnyScene, mut plain: AnyScene) -> Vec<String> {
+    let mut notes = Vec::new();
     if scene.stop_time() != plain.stop_time() {
-        say(
-            "note: the run ends at another time: an answer that is a function of time is taken then, \
-             any other stays that of the end of the case",
-        );
+        let note = "the run ends at another time: an answer that is a function of time is taken then, any \
+                    other stays that of the end of the case";
+        notes.push(note.to_owned());
         plain.set_stop_time(scene.stop_time());
     }
     if !scene.same_problem(&plain) {
-        say(&format!(
-            "note: the problem is not that of `{}`: what was measured is compared with the answer to the \
-             case as it stands, not to this problem",
+        notes.push(format!(
+            "the problem is not that of `{}`: what was measured is compared with the answer to the case as \
+             it stands, not to this problem",
             case.id()
         ));
     }
+    notes
 }
 
 /// Mentions the `--set` that change nothing: those that are redundant, and keys that this scene has no use
 /// for.
-fn note_idle(sets: &[String], redundant: &[&String], scene: &AnyScene) {
-    for set in sets {
+fn note_idle(sets: &[String], redundant: &[&String], scene: &AnyScene) -> Vec<String> {
+    let note = |set: &String| {
         let key = set.split('=').next().unwrap_or_default().trim();
         if redundant.contains(&set) {
-            say(&format!("note: `--set {set}` changes nothing: the scene has this value already"));
-        } else if let Some(why) = keys::idle(key, scene) {
-            say(&format!("note: `--set {set}` changes nothing in this run: {why}"));
+            return Some(format!(
+                "`--set {set}` changes nothing: the scene has this value already"
+            ));
         }
-    }
+        keys::idle(key, scene)
+            .map(|why| format!("`--set {set}` changes nothing in this run: {why}"))
+    };
+    sets.iter().filter_map(note).collect()
+}
+
+/// Refuses a value that both an option of its own and `--set` give.
+fn refuse_given_twice(args: &RunArgs) -> Result<(), Failure> {
+    let own = [
+        ("density", "density", args.density.is_some()),
+        ("stop", "stop_time", args.stop.is_some()),
+    ];
+    let twice = |&(_, key, given): &(&str, &str, bool)| {
+        given && args.sets.iter().any(|set| overrides::key(set) == key)
+    };
+    own.iter().find(|own| twice(own)).map_or(Ok(()), |(option, key, _)| {
+        let message = format!("`--{option}` and `--set {key}` both give one value: one has to do");
+        Err(Failure::usage(message))
+    })
 }
 
 /// The case of a name.
@@ -268,12 +298,13 @@ pub(super) fn named_variants(case: &dyn Case) -> Vec<&'static str> {
     case.variants().iter().copied().filter(|variant| !variant.is_empty()).collect()
 }
 
-/// The run that the arguments ask for, and what is wanted of its numbers.
+/// The run that the arguments ask for, what is wanted of its numbers, and what is to be said of it.
 fn request<'a>(
     case: &'a dyn Case,
     variant: &str,
     args: &RunArgs,
-) -> Result<(Request, Bounds<'a>), Failure> {
+) -> Result<(Request, Bounds<'a>, Vec<String>), Failure> {
+    refuse_given_twice(args)?;
     let preset = Preset::from(args.preset);
     let scheme = if args.godunov {
         Scheme::Godunov
@@ -289,12 +320,12 @@ fn request<'a>(
     let stop = args.stop.map(|time| time.in_units("--stop", units)).transpose()?;
     let redundant = plain.as_ref().map(|plain| overrides::redundant(plain, &args.sets));
     let redundant = redundant.unwrap_or_default();
-    let scene = match plain {
-        Some(plain) => Some(changed(case, &mut key, (plain, stop), args)?),
-        None => None,
+    let (scene, mut notes) = match plain {
+        Some(plain) => changed(case, &mut key, (plain, stop), args).map(|(s, n)| (Some(s), n))?,
+        None => (None, Vec::new()),
     };
     if let Some(scene) = &scene {
-        note_idle(&args.sets, &redundant, scene);
+        notes.extend(note_idle(&args.sets, &redundant, scene));
     }
     let stop = stop.iter().map(|time| format!("--stop {time}"));
     let text = |set: &String| format!("--set {set}");
@@ -302,26 +333,27 @@ fn request<'a>(
     let bounds = Bounds::new(case, own, &stop.clone().chain(sets).collect::<Vec<String>>());
     let command = [command_of(&key)].into_iter().chain(stop).chain(args.sets.iter().map(text));
     let command = command.collect::<Vec<String>>().join(" ");
-    Ok((Request { key, scene, threads: args.threads, command }, bounds))
+    Ok((Request { key, scene, threads: args.threads, command }, bounds, notes))
 }
 
-/// The plain scene of a run with what `--set` and `--stop` make of it, checked; the key follows it.
+/// The plain scene of a run with what `--set` and `--stop` make of it, checked, and what is to be said of
+/// it; the key follows it.
 fn changed(
     case: &dyn Case,
     key: &mut RunKey,
     (plain, stop): (AnyScene, Option<f64>),
     args: &RunArgs,
-) -> Result<AnyScene, Failure> {
+) -> Result<(AnyScene, Vec<String>), Failure> {
     let mut scene = overrides::apply(plain.clone(), &args.sets).map_err(Failure::usage)?;
     if let Some(time) = stop {
         scene.set_stop_time(time);
     }
     scene.validate().map_err(|error| match plain.validate() {
-        Err(error) => no_size(case, key, &error),
+        Err(error) => cannot(case, key, &error),
         Ok(()) => Failure::usage(error),
     })?;
     let (folder, resumed) = (args.out.is_some(), args.resume.is_some());
-    expect(case, ("--n", key.n), &scene, Keeps { folder, resumed })?;
+    let size = foresee(case, ("--n", key.n), &scene, Keeps { folder, resumed })?;
     if let AnyScene::Line(scene) = &scene {
         key.n = scene.particles();
     }
@@ -331,6 +363,6 @@ fn changed(
     {
         *density = scene.density();
     }
-    note_changes(case, &scene, plain);
-    Ok(scene)
+    let notes = size.into_iter().chain(note_changes(case, &scene, plain)).collect();
+    Ok((scene, notes))
 }

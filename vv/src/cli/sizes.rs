@@ -1,11 +1,13 @@
 //! Sizes and memory: what is said before a run that cannot be, or that is large.
 
 use whipple_solver::error::SceneError;
+use whipple_solver::method::Density;
 
+use super::run::named_variants;
 use super::{Failure, say};
 use crate::cases::{Case, Level};
 use crate::memory::{Fit, Keeps, Need, available, bytes_text, fit};
-use crate::record::RunKey;
+use crate::record::{RunKey, Scheme};
 use crate::scene::AnyScene;
 use crate::suite::scene_of;
 
@@ -15,12 +17,53 @@ const FURTHER: usize = 100;
 /// A run this many times as large as the largest of the levels is mentioned.
 const UNTRIED: usize = 8;
 
-/// A size that the case cannot have, and the nearest that it can.
-pub(super) fn no_size(case: &dyn Case, key: &RunKey, error: &SceneError) -> Failure {
-    let fits = |n: usize| {
-        let key = RunKey { n, ..key.clone() };
-        scene_of(case, &key).is_none_or(|scene| scene.validate().is_ok())
+/// Why a case cannot run so, and how it can.
+pub(super) fn cannot(case: &dyn Case, key: &RunKey, error: &SceneError) -> Failure {
+    let fits = |key: RunKey| scene_of(case, &key).is_none_or(|scene| scene.validate().is_ok());
+    let sized = |n: usize| fits(RunKey { n, ..key.clone() });
+    // Where the size of the case does not help, none does.
+    if sized(case.default_size()) {
+        no_size(case, key, error, sized)
+    } else {
+        no_scheme(case, key, error, fits)
+    }
+}
+
+/// A scheme that the case cannot run under, and what else it could be.
+fn no_scheme(
+    case: &dyn Case,
+    key: &RunKey,
+    error: &SceneError,
+    fits: impl Fn(RunKey) -> bool,
+) -> Failure {
+    let Scheme::Particles { preset, .. } = key.scheme else { return Failure::usage(error) };
+    let n = case.default_size();
+    let densities = Density::ALL.into_iter().map(|density| {
+        let scheme = Scheme::Particles { preset, density };
+        (RunKey { scheme, n, ..key.clone() }, format!("`--density {}`", density.name()))
+    });
+    let variants = named_variants(case).into_iter().map(|variant| {
+        (RunKey { n, ..key.clone() }.variant(variant), format!("`--variant {variant}`"))
+    });
+    let ways = densities.chain(variants).filter_map(|(key, way)| fits(key).then_some(way));
+    let advice = match ways.collect::<Vec<String>>().join(" or ") {
+        none if none.is_empty() => none,
+        ways => format!("; use {ways}"),
     };
+    Failure::usage(format!(
+        "`{}` cannot run under `{}`: {error}{advice}",
+        case.id(),
+        key.scheme.label()
+    ))
+}
+
+/// A size that the case cannot have, and the nearest that it can.
+fn no_size(
+    case: &dyn Case,
+    key: &RunKey,
+    error: &SceneError,
+    fits: impl Fn(usize) -> bool,
+) -> Failure {
     let n = key.n;
     let advice = match (n + 1..=n.saturating_add(FURTHER)).find(|&n| fits(n)) {
         Some(next) => format!("the next size that it can have is {next}"),
@@ -55,15 +98,18 @@ pub(super) fn expect(
     scene: &AnyScene,
     keeps: Keeps,
 ) -> Result<(), Failure> {
-    let need = Need::of(scene, keeps);
-    match outlook(case, size, need, available()) {
-        Err(why) => Err(Failure::usage(why)),
-        Ok(None) => Ok(()),
-        Ok(Some(note)) => {
-            say(&format!("note: {note}"));
-            Ok(())
-        }
-    }
+    foresee(case, size, scene, keeps)?.iter().for_each(|note| say(&format!("note: {note}")));
+    Ok(())
+}
+
+/// As [`expect`], and returns what is to be mentioned.
+pub(super) fn foresee(
+    case: &dyn Case,
+    size: (&str, usize),
+    scene: &AnyScene,
+    keeps: Keeps,
+) -> Result<Option<String>, Failure> {
+    outlook(case, size, Need::of(scene, keeps), available()).map_err(Failure::usage)
 }
 
 /// What is said of a need where so much memory is available; refused in the error.
@@ -120,7 +166,6 @@ fn with_groups(text: &str) -> String {
 mod tests {
     use super::*;
     use crate::cases::{ALL, find};
-    use crate::record::Scheme;
     use whipple_solver::method::Preset;
 
     /// What is wrong with a size of a case.
@@ -138,12 +183,31 @@ mod tests {
                 let Some(error) = wrong(case, n) else { continue };
                 refused += 1;
                 let key = RunKey::new(case.id(), Scheme::preset(Preset::Default), n);
-                let said = no_size(case, &key, &error).message;
+                let said = cannot(case, &key, &error).message;
                 let named = said.rsplit(' ').next().and_then(|word| word.parse().ok());
                 assert!(named.is_some_and(|named| wrong(case, named).is_none()), "{said}");
             }
         }
         assert!(refused > ALL.len(), "{refused}");
+    }
+
+    /// What decides is blamed: the scheme where no size helps, with one that runs.
+    #[test]
+    fn sizes_are_blamed_where_they_decide() {
+        let said = |density: Density, n| {
+            let case = find("saltzman").expect("the case");
+            let scheme = Scheme::Particles { preset: Preset::Paper, density };
+            let key = RunKey::new("saltzman", scheme, n);
+            let scene = scene_of(case, &key).expect("a scene");
+            cannot(case, &key, &scene.validate().expect_err("refused")).message
+        };
+        let scheme = said(Density::Nonholonomic, 8);
+        assert!(scheme.starts_with(
+            "`saltzman` cannot run under `paper`: `method.density` is nonholonomic, but"
+        ));
+        assert!(scheme.ends_with("; use `--density hybrid` or `--variant regular`"), "{scheme}");
+        let size = said(Density::Hybrid, 100_000);
+        assert!(size.starts_with("`saltzman` cannot have --n 100 000: "), "{size}");
     }
 
     #[test]

@@ -19,7 +19,7 @@ pub use model::{
 };
 pub use number::sig;
 pub use sheet::csv;
-pub use write::{INDEX, write};
+pub use write::{INDEX, TEXT, write};
 
 use crate::plots::PlotError;
 use std::path::PathBuf;

@@ -11,6 +11,8 @@ use std::path::Path;
 
 /// The page of a report.
 pub const INDEX: &str = "index.html";
+/// The same as text.
+pub const TEXT: &str = "report.md";
 /// Names of the files a report consists of: only these are ever removed.
 const MANIFEST: &str = ".report-files";
 /// Folder inside the target where a report is made before it takes the place of the old one.
@@ -48,7 +50,7 @@ fn render(
 ) -> Result<BTreeMap<String, Vec<u8>>, ReportError> {
     let mut files = BTreeMap::new();
     files.insert(INDEX.to_owned(), html(report, figures, Pictures::Beside)?.into_bytes());
-    files.insert("report.md".to_owned(), markdown(report).into_bytes());
+    files.insert(TEXT.to_owned(), markdown(report).into_bytes());
     for (id, drawing) in figures {
         match drawing {
             Drawing::Chart(svg) => {
@@ -123,7 +125,7 @@ fn manifest(dir: &Path) -> Result<BTreeSet<String>, ReportError> {
             Some(("tables", file)) => file.strip_suffix(".csv"),
             _ => None,
         };
-        *line == "report.md" || id.is_some_and(valid)
+        *line == TEXT || id.is_some_and(valid)
     };
     let path = dir.join(MANIFEST);
     match fs::read_to_string(&path) {

@@ -79,6 +79,20 @@ pub enum HistoryError {
         /// What should stand there.
         wanted: String,
     },
+    /// It ends before the state that the run goes on from.
+    #[error(
+        "{} ends at time {end}, before that of the checkpoint, {time}: it is of another run of this scene; \
+         name another folder with --out",
+        path.display()
+    )]
+    Short {
+        /// The file.
+        path: PathBuf,
+        /// Time of its last row.
+        end: f64,
+        /// Time of the state.
+        time: f64,
+    },
 }
 
 /// Rows over time. They are kept in memory; [`History::save`] replaces the file as a whole.
@@ -100,7 +114,7 @@ impl History {
     /// The history of a run that goes on from a checkpoint of `time`: later rows are dropped.
     ///
     /// # Errors
-    /// [`HistoryError`] if the file cannot be read or is not a history of this scene.
+    /// [`HistoryError`] if the file cannot be read, is not a history of this scene, or has not come so far.
     pub fn resume(path: &Path, scene: &Scene, time: f64) -> Result<Self, HistoryError> {
         let mut history = Self::new(path, scene);
         let text = std::fs::read_to_string(path).map_err(|error| HistoryError::Read {
@@ -122,6 +136,10 @@ impl History {
             if at <= time {
                 history.rows.push((at, line.to_owned()));
             }
+        }
+        let end = history.rows.last().map_or(f64::NEG_INFINITY, |(at, _)| *at);
+        if end < time {
+            return Err(HistoryError::Short { path: path.to_owned(), end, time });
         }
         Ok(history)
     }

@@ -151,7 +151,8 @@ impl Recorder {
         Ok(self.ledger.save()?)
     }
 
-    /// Writes the present state as a checkpoint.
+    /// Writes the present state as a checkpoint, and the ledger so far: a run that goes on from the one
+    /// continues the other.
     ///
     /// # Errors
     /// What the file system says.
@@ -160,6 +161,7 @@ impl Recorder {
         simulation: &Simulation,
         measured: &Measured,
     ) -> Result<PathBuf, OutputError> {
+        self.ledger.save()?;
         Ok(checkpoint::save(&self.folder, (&self.scene, &self.command), simulation, measured)?)
     }
 

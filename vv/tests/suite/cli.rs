@@ -95,11 +95,11 @@ fn overrides_that_change_nothing_are_told() {
 #[test]
 fn overrides_with_the_value_of_the_scene_are_told() {
     let run = |sets: &[&str]| said(folder().path(), &[&["run", "noh", "--n", "20"], sets].concat());
-    let plain = run(&["--density", "kernel", "--set", "density=kernel"]);
+    let plain = run(&["--set", "density=hybrid"]);
     assert_eq!(plain.code, Some(0), "{}", plain.err);
     assert_eq!(
         plain.err,
-        "note: `--set density=kernel` changes nothing: the scene has this value already\n"
+        "note: `--set density=hybrid` changes nothing: the scene has this value already\n"
     );
     assert!(!plain.out.contains("changed by"), "{}", plain.out);
     let two = run(&["--set", "heating=pair", "--set", "cfl=0.123"]);
@@ -155,7 +155,6 @@ fn wrong_input_is_refused() {
         refusal(&["run", "noh", "--n", "1000000000000"]),
         refusal(&["run", "noh", "--n", "abc"]),
         refusal(&["run", "noh", "--n"]),
-        refusal(&["run", "long-rod", "--n", "1"]),
         refusal(&["run", "sod", "--n", "3"]),
         refusal(&["run", "noh-space", "--variant", "spherical", "--n", "4000"]),
         refusal(&["run", "noh", "--stop", "-1"]),
@@ -174,6 +173,11 @@ fn wrong_input_is_refused() {
         refusal(&["run", "noh", "--set", "cfl"]),
         refusal(&["run", "noh", "--set", "clf=0.1"]),
         refusal(&["run", "noh", "--set", "cfl=0.1", "--set", "method.cfl=0.2"]),
+        refusal(&["run", "noh", "--density", "hybrid", "--set", "density=kernel"]),
+        refusal(&["run", "noh", "--stop", "5", "--set", "stop_time=7"]),
+        refusal(&["run", "noh", "--stop", "0.1", "--set", "cfl=-1"]),
+        refusal(&["run", "saltzman", "--n", "8", "--preset", "paper"]),
+        refusal(&["run", "verney", "--density", "kernel"]),
         refusal(&["run", "noh", "--set", "visc_hourglass=0.1"]),
         refusal(&["run", "noh", "--set", "visc_linear=1e9"]),
         refusal(&["run", "planar-impact", "--set", "visc_linear=1e9"]),
@@ -429,6 +433,46 @@ fn folder_of_another_run_is_refused() {
     assert!(err.starts_with("error: x/record.json is not a record of format "), "{err}");
 }
 
+/// Files that have the names of results are the user's where no record says what they are.
+#[test]
+fn files_of_the_user_are_left_alone() {
+    let folder = folder();
+    let at = folder.path();
+    for (name, args) in [
+        ("scene.toml", &["run", "noh", "--n", "20"][..]),
+        ("profile.csv", &["run", "noh", "--n", "20"]),
+        ("history.csv", &["run", "kolsky", "--n", "21"]),
+        ("ledger.csv", &["run", "planar-impact", "--n", "16"]),
+        ("index.html", &["vv", "heat-chain", "--level", "quick"]),
+        ("report.md", &["vv", "heat-chain", "--level", "quick"]),
+        ("single-file.html", &["vv", "heat-chain", "--level", "quick", "--single-file"]),
+    ] {
+        let own = format!("of-{name}");
+        std::fs::create_dir(at.join(&own)).expect("a folder");
+        std::fs::write(at.join(&own).join(name), "mine").expect("a file");
+        let said = said(at, &[args, &["--out", &own]].concat());
+        assert_eq!((said.code, said.out.as_str()), (Some(2), ""), "{name}");
+        let begin = format!("error: {own}/{name} is there already, with no record beside it ");
+        assert!(said.err.starts_with(&begin), "{}", said.err);
+        assert_eq!(std::fs::read_to_string(at.join(&own).join(name)).expect("it"), "mine");
+        assert_eq!(std::fs::read_dir(at.join(&own)).expect("it").count(), 1, "nothing is written");
+    }
+}
+
+/// Readers in Python say in a line what they need.
+#[test]
+fn scripts_name_what_they_need() {
+    for (script, need) in [("read_checkpoint.py", "numpy"), ("read_vtu.py", "PyVista")] {
+        let path = format!("{}/scripts/{script}", env!("CARGO_MANIFEST_DIR"));
+        // Without its packages.
+        let Ok(output) = Command::new("python3").args(["-I", "-S", &path]).output() else { return };
+        let said = Said::from(output);
+        assert_eq!((said.code, said.out.as_str()), (Some(2), ""), "{}", said.err);
+        assert!(said.err.starts_with(&format!("{script} needs {need}")), "{}", said.err);
+        assert_eq!(said.err.lines().count(), 1, "{}", said.err);
+    }
+}
+
 /// A full disk is said to be one, whether results go to a device or to standard output.
 #[cfg(target_os = "linux")]
 #[test]
@@ -487,6 +531,19 @@ fn completions_are_printed() {
         let said = said(folder().path(), &["completions", shell]);
         assert_eq!(said.code, Some(0));
         assert!(said.out.contains("whipple"), "{shell}");
+    }
+}
+
+/// `bench density` runs at a usual size, prints its table and leaves it. No time is asserted.
+#[test]
+fn bench_measures_the_density() {
+    let folder = folder();
+    let said = said(folder.path(), &["bench", "density", "--rounds", "1", "--out", "out"]);
+    assert_eq!(said.code, Some(0), "{}", said.err);
+    let table = std::fs::read_to_string(folder.path().join("out/density.csv")).expect("a table");
+    assert_eq!(table.lines().count(), 1 + 6, "{table}");
+    for rival in ["kernel, equal contact list", "kernel, natural support", "hybrid"] {
+        assert_eq!(said.out.matches(rival).count(), 2, "{}", said.out);
     }
 }
 

@@ -199,6 +199,69 @@ fn time_on_the_clock_ends_a_run_that_goes_on() {
     }
 }
 
+/// What lies in a folder, to the byte.
+fn contents(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    let read = |name: String| (name.clone(), fs::read(folder.join(name)).expect("a file"));
+    names(folder).into_iter().map(read).collect()
+}
+
+/// A run that is not finished is not begun anew over what it has done: the refusal names the command that goes
+/// on, and nothing is lost. That holds for the same run and for one that only ends at another time.
+#[test]
+fn unfinished_run_is_not_begun_anew() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let at = folder.path();
+    let [whole, parts] = ["whole", "parts"].map(|name| at.join(name));
+    assert_well(&rod(at, &["--stop", "2", "--out", "whole"]));
+    let stopped = rod(at, &["--stop", "2", "--max-wall", "1us", "--out", "parts"]);
+    assert_eq!(stopped.code, Some(130), "{}", stopped.err);
+    let before = contents(&parts);
+    let [same, other] = ["2", "3"].map(|stop| rod(at, &["--stop", stop, "--out", "parts"]));
+    for (refused, which) in [(&same, "a run"), (&other, "another run")] {
+        assert_eq!((refused.code, refused.out.as_str()), (Some(2), ""));
+        // Notes are for runs that start.
+        let begin = format!(
+            "error: parts holds {which} that is not finished; continue it with\n  whipple run long-rod "
+        );
+        assert!(refused.err.starts_with(&begin), "{}", refused.err);
+        let end = "--stop 2 --set bodies.0.shape.cylinder.length=1.5";
+        assert!(refused.err.contains(end), "{}", refused.err);
+        let end = "\nor start anew: name another folder with --out, or delete that one\n";
+        assert!(refused.err.ends_with(end), "{}", refused.err);
+    }
+    assert!(contents(&parts) == before, "nothing is lost");
+    let named = same.err.lines().nth(1).expect("a command");
+    let words: Vec<&str> = named.split_whitespace().skip(1).collect();
+    // A ledger that has not come so far is of another run.
+    let ledger = fs::read_to_string(parts.join("ledger.csv")).expect("a ledger");
+    let short: Vec<&str> = ledger.split_inclusive('\n').take(2).collect();
+    fs::write(parts.join("ledger.csv"), short.concat()).expect("a file");
+    let refused = said(at, &words);
+    assert_eq!(refused.code, Some(2), "{}", refused.err);
+    assert!(errors(&refused).starts_with("error: parts/ledger.csv ends at time 0, before that of"));
+    fs::write(parts.join("ledger.csv"), ledger).expect("a file");
+    assert_well(&said(at, &words));
+    assert_same_run(&whole, &parts);
+    // Finished, it may be made again, and is then alone in its folder.
+    assert_eq!(names(&parts).iter().filter(|name| name.ends_with(".whp")).count(), 2);
+    assert_well(&rod(at, &["--stop", "2", "--out", "parts"]));
+    assert_eq!(names(&parts), names(&whole));
+    assert_same_run(&whole, &parts);
+    // A checkpoint tells other ends as a record does, though its scene is the same.
+    assert_well(&rod(
+        at,
+        &["--stop", "3", "--out", "parts", "--resume", "parts/checkpoint-000001.whp"],
+    ));
+    fs::copy(whole.join("record.json"), parts.join("record.json")).expect("a copy");
+    let refused = rod(at, &["--stop", "2", "--out", "parts"]);
+    assert!(
+        refused.err.starts_with("error: parts holds another run, `whipple run"),
+        "{}",
+        refused.err
+    );
+    assert!(refused.err.contains(" --stop 3 "), "{}", refused.err);
+}
+
 /// Stops a run before its end, when every case has looked.
 struct Late;
 
@@ -266,7 +329,8 @@ fn checkpoints_are_written_along_the_way() {
     for args in [&["run", "sod", "--n", "20"][..], &["run", "planar-impact", "--n", "16"]] {
         let refused = said(at, &[args, &["--out", "plain"]].concat());
         assert_eq!(refused.code, Some(2));
-        let begin = "error: plain holds another run, `whipple run long-rod --variant viscosity-1 ";
+        let begin = "error: plain holds another run that is not finished; continue it with\n  whipple run \
+                     long-rod --variant viscosity-1 ";
         assert!(errors(&refused).starts_with(begin), "{}", refused.err);
     }
     fs::rename(at.join("aside.json"), plain.join("record.json")).expect("it moves");

@@ -213,7 +213,8 @@ fn pictures_are_kept_and_checked() {
             assert_eq!((said.code, said.out.as_str()), (Some(2), ""));
             assert!(said.err.contains("chain-dark.png") || said.err.contains("chain.png"));
             assert!(said.err.contains(what), "{}", said.err);
-            assert!(said.err.contains("whipple run heat-chain"), "it says how to make it again");
+            let again = "`whipple vv heat-chain --level quick --out r` makes it again";
+            assert!(said.err.contains(again), "{}", said.err);
         }
     };
     refused("cannot be read");
@@ -237,4 +238,20 @@ fn pictures_are_kept_and_checked() {
     assert_eq!((check.code, check.err.contains("figures/chain.png")), (Some(1), true));
     std::fs::write(records.join("pictures/chain-dark.png"), "altered").expect("a picture");
     refused("BLAKE3 is");
+    let again = said(folder.path(), &["vv", "heat-chain", "--level", "quick", "--out", "r"]);
+    assert_eq!(again.code, Some(0), "that command mends it: {}", again.err);
+}
+
+/// A folder without a record has no report.
+#[test]
+fn empty_records_are_no_report() {
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::create_dir_all(folder.path().join("r/records")).expect("a folder");
+    for more in [&[][..], &["--check"]] {
+        let said = said(folder.path(), &[&["report", "--out", "r"], more].concat());
+        assert_eq!((said.code, said.out.as_str()), (Some(2), ""));
+        let begin = "error: no report in r: its folder `records` holds no record; ";
+        assert!(said.err.starts_with(begin), "{}", said.err);
+    }
+    assert_eq!(files(&folder.path().join("r")).len(), 0, "nothing is written");
 }

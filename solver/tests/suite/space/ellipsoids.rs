@@ -256,9 +256,9 @@ fn shocks_cross_bricks_along_every_axis() {
         };
         let mut scene = scene(vec![copper()], vec![body]);
         scene.walls.push(mirror(0, 0.0, Side::Above));
-        for axis in 1..3 {
-            scene.walls.push(mirror(axis, -0.5 * size[axis], Side::Above));
-            scene.walls.push(mirror(axis, 0.5 * size[axis], Side::Below));
+        for (axis, edge) in (1..).zip(&size[1..]) {
+            scene.walls.push(mirror(axis, -0.5 * edge, Side::Above));
+            scene.walls.push(mirror(axis, 0.5 * edge, Side::Below));
         }
         let mut simulation = start(&scene);
         let time = 0.75 * size[0] / us;
