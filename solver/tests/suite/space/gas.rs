@@ -119,7 +119,7 @@ fn the_floor_of_a_solid_is_counted() {
 /// run does.
 #[test]
 fn cold_gas_may_step_shorter_than_a_millionth_of_the_run() {
-    let body = Body { velocity: [-1.0, 0.0, 0.0], ..block("gas", [8, 2, 2], 0.25) };
+    let body = Body { energy: 1e-6, velocity: [-1.0, 0.0, 0.0], ..block("gas", [8, 2, 2], 0.25) };
     let mut scene = scene(vec![gas()], vec![body]);
     scene.walls.push(mirror(0, -1.0, Side::Above));
     scene.stop_time = 1e6;
