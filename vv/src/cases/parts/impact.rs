@@ -15,6 +15,10 @@ pub(in crate::cases) const STOP: f64 = 10.0;
 /// First gap between sphere and plate, in cells of the plate.
 const GAP: f64 = 0.9;
 
+/// Edge of the finest cells of the sphere: a plate of finer ones has more particles than a scene may, and
+/// the cells of a sphere are counted one by one.
+const FINEST: f64 = THICKNESS / 100.0;
+
 /// Which body the sphere is, and which the plate.
 pub(in crate::cases) const SPHERE: usize = 0;
 pub(in crate::cases) const PLATE: usize = 1;
@@ -67,7 +71,7 @@ impl Impact<'_> {
         let middle = 0.5 * THICKNESS;
         let size = Shape::Box { size: [self.edge, THICKNESS, self.edge] };
         let plate = resting(of_plate, size, [across, self.through, across], [0.0, middle, 0.0]);
-        let ball = sphere_of(of_sphere, cell);
+        let ball = sphere_of(of_sphere, cell.max(FINEST));
         // The lattice of a sphere ends a little before or beyond its surface.
         let reach = 0.5 * cell_size(&ball)[1] * ball.cells[1] as f64;
         let (sine, cosine) = self.degrees.to_radians().sin_cos();
