@@ -59,6 +59,11 @@ impl Progress {
                 std::process::exit(i32::from(super::INTERRUPTED));
             }
         });
+        Self::watching(outlook)
+    }
+
+    /// The bar or the lines alone.
+    fn watching(outlook: Outlook) -> Self {
         let bar = ProgressBar::new(PARTS);
         let terminal = std::io::stderr().is_terminal();
         if !terminal {
@@ -189,7 +194,7 @@ mod tests {
 
     #[test]
     fn lines_have_the_unit_of_their_run() {
-        let progress = Progress::new(Outlook::default());
+        let progress = Progress::watching(Outlook::default());
         for (unit, said) in [("us", "t = 2.0000e0 us, "), ("", "t = 2.0000e0, ")] {
             progress.start("a run", unit);
             progress.tick(2.0, 4.0, 1000);

@@ -342,7 +342,7 @@ mod tests {
     /// Times of a suite are in the units of each of its runs.
     #[test]
     fn times_of_a_suite_have_units() {
-        for (id, unit) in [("long-rod", "us"), ("noh", "")] {
+        for (id, unit) in [("long-rod", "µs"), ("noh", "")] {
             let case = crate::cases::find(id).expect("the case");
             let key = case.runs(Level::Quick).remove(0);
             assert_eq!(unit_of_time(&ALL, &key), unit, "{id}");
