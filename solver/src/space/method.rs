@@ -20,10 +20,11 @@ pub enum YieldNorm {
 }
 
 /// Which particles are ellipsoids.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Particles {
     /// Those of cells with unequal edges; where edges are equal, particles are spheres, which do not rotate.
+    #[default]
     Fitting,
     /// All of cells that no mapping has moved.
     Ellipsoids,
@@ -50,6 +51,7 @@ pub struct Method {
     /// Split of the viscous heat of (60): between the pair, or the scene is refused.
     pub heating: Heating,
     /// Which particles are ellipsoids.
+    #[serde(default)]
     pub particles: Particles,
     /// Reading of the yield function.
     pub yield_norm: YieldNorm,
