@@ -67,7 +67,7 @@ pub enum Level {
     Quick,
     /// Most sizes that claims need.
     Standard,
-    /// Every size that a claim needs, the long rod at 9 cells and its variants too.
+    /// Every size that a claim needs, the long rod at 9 cells, it and the plate in their variants.
     Full,
 }
 

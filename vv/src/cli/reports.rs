@@ -128,9 +128,9 @@ fn expected(cases: &[&'static dyn Case], level: Level, forecast: &Forecast) -> S
 /// What a level took with all cases on two cores.
 fn usual(level: Level) -> &'static str {
     match level {
-        Level::Quick => "1 to 2 minutes",
-        Level::Standard => "about 8 minutes",
-        Level::Full => "about 35 minutes",
+        Level::Quick => "about 2 minutes",
+        Level::Standard => "about 9 minutes",
+        Level::Full => "about 42 minutes",
     }
 }
 
@@ -141,7 +141,7 @@ pub(super) fn levels() -> impl TypedValueParser<Value = Level> {
             Level::Quick => "Few sizes of every case, not always its smallest",
             Level::Standard => "Most sizes that claims need",
             Level::Full => {
-                "Every size that a claim needs, the long rod at 9 cells and its variants too"
+                "Every size that a claim needs, the long rod at 9 cells, it and the plate in their variants"
             }
         };
         PossibleValue::new(level.name()).help(format!("{what}: {}", usual(level)))
@@ -319,7 +319,7 @@ mod tests {
         let said = expected(&ALL, Level::Full, &unknown);
         assert_eq!(
             said,
-            "level full: 7 runs of all 26 cases, about 35 minutes where it was measured"
+            "level full: 7 runs of all 26 cases, about 42 minutes where it was measured"
                 .replace("26", &ALL.len().to_string())
         );
         let rod = [crate::cases::find(rod).expect("the case")];

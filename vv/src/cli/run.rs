@@ -269,7 +269,9 @@ fn variant(case: &dyn Case, args: &RunArgs) -> Result<String, Failure> {
             return Err(no_choice(case, name));
         };
         if !choice.values.contains(&value.as_str()) {
-            let hint = did_you_mean(value, choice.values.iter().copied());
+            // Numbers have no neighbours in spelling.
+            let words = choice.values.iter().copied().filter(|_| value.parse::<f64>().is_err());
+            let hint = did_you_mean(value, words);
             let all = choice.values.join(", ");
             let id = case.id();
             let message = format!("`{id}` has no --{name} {value}{hint} (it has: {all})");

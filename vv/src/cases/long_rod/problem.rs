@@ -94,8 +94,8 @@ fn strength(variant: &str) -> [Hardening; 2] {
     }
 }
 
-/// A metal of Table 4 with the equation of state of gap G23. No spall strength is known for the steel; 1.9
-/// GPa of another tungsten alloy (`references/materials.toml`) is not carried over.
+/// A metal of Table 4 with the equation of state of gap G23. No spall strength is known for the steel, and
+/// that of another tungsten alloy (`references/materials.toml`) is not carried over.
 fn metal(metal: Metal, shear_modulus: f64, hardening: Hardening) -> Material {
     let [y_0, kappa, alpha, melt] = hardening;
     let hardening = [y_0, kappa, alpha, 1.0, melt];
