@@ -383,6 +383,8 @@ fn columns_have_units() {
         let columns = columns.flat_map(|series| series.0.keys().map(String::as_str));
         found.entry(&record.key.case).or_default().extend(columns);
     }
+    // Records of runs that no figure shows leave theirs out.
+    found.retain(|_, columns| !columns.is_empty());
     assert!(found.len() > 10, "{found:?}");
     for (id, columns) in found {
         let units = crate::common::case(id).units();
