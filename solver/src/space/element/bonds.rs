@@ -67,6 +67,18 @@ impl<F: Lanes> Seen<'_, F> {
     }
 }
 
+/// How fast a bond `n` closes where one end moves against the other, times its length. No closure: one that is not inlined
+/// is compiled without the vector registers of its caller.
+#[inline(always)]
+fn closing<F: Lanes>(
+    (skew, slot): (&impl Skewed<F>, usize),
+    n: &V3<F>,
+    to: &V3<F>,
+    from: &V3<F>,
+) -> F {
+    -dot(n, &skew.rate(slot, sub(to, from)))
+}
+
 /// Least square of a length, whose inverse bears factors.
 const LEAST_SQUARE: f64 = 1e-200;
 
@@ -93,7 +105,7 @@ impl<F: Lanes> Damping<F> {
     #[inline(always)]
     fn rates<const MAPPED: bool>(
         &self,
-        bond: impl Fn(usize) -> V3<F>,
+        (seen, skew): (&Seen<'_, F>, &impl Skewed<F>),
         light: Mask,
         cells: &Cells<'_, MAPPED>,
     ) -> Symmetric<F> {
@@ -102,7 +114,10 @@ impl<F: Lanes> Damping<F> {
         let per_mass: F = cells.volume_as(|volume| 2.0 / (cells.body.rho_0 * volume));
         let mut rates = Symmetric::zero();
         for slot in 0..8 {
-            rates.add(&bond(slot), (self.nu[slot] + corner) * self.inverse[slot] * per_mass);
+            rates.add(
+                &skew.bond(slot, seen.diagonal(slot)),
+                (self.nu[slot] + corner) * self.inverse[slot] * per_mass,
+            );
         }
         rates
     }
@@ -148,7 +163,7 @@ impl Group {
                 loads.conduct(slot, (pair * difference).keep(near) * conduct);
             }
         }
-        damping.rates(|slot| seen.diagonal(slot), self.light, cells)
+        damping.rates((seen, &()), self.light, cells)
     }
 
     /// Viscosity on what neighbouring jumps along the diagonal do not explain, and the heat flux in
@@ -171,12 +186,11 @@ impl Group {
         let mut damping = Damping::none();
         for slot in 0..8 {
             let r = skew.bond(slot, seen.diagonal(slot));
-            let closing = |to: &V3<F>, from: &V3<F>| -dot(&r, &skew.rate(slot, sub(to, from)));
             // The centroid of a dead element may lie on a corner.
             let inverse = F::splat(1.0) / dot(&r, &r).max(F::splat(LEAST_SQUARE));
             // Jumps times the separation: of the bond, of the one before and of the one beyond.
-            let own = closing(&seen.v[slot], &seen.v[CENTRE]);
-            let before = closing(&seen.v[CENTRE], &seen.v[7 - slot]);
+            let own = closing((&skew, slot), &r, &seen.v[slot], &seen.v[CENTRE]);
+            let before = closing((&skew, slot), &r, &seen.v[CENTRE], &seen.v[7 - slot]);
             let at = self.beyond[slot] as usize;
             let mut next = [
                 F::load(read.velocity[0], at),
@@ -188,7 +202,8 @@ impl Group {
                     *next = if self.mirrored[slot] >> d & 1 == 1 { -*next } else { *next };
                 }
             }
-            let beyond = closing(&next, &seen.v[slot]).keep(self.has_beyond[slot]);
+            let beyond =
+                closing((&skew, slot), &r, &next, &seen.v[slot]).keep(self.has_beyond[slot]);
             let (behind, ahead) = (before * own, beyond * own);
             let mean = before * beyond * method.limiter / ((before + beyond) * own);
             let explained = mean.min(F::splat(1.0)).keep(behind.gt(zero) & ahead.gt(zero));
@@ -218,6 +233,6 @@ impl Group {
         if let Some(along) = skew.pulled() {
             loads.add(&spread(&along, cells));
         }
-        damping.rates(|slot| skew.bond(slot, seen.diagonal(slot)), self.light, cells)
+        damping.rates((seen, &skew), self.light, cells)
     }
 }
