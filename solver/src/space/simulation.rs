@@ -178,6 +178,9 @@ impl Simulation {
             groups,
             state,
         };
+        for wall in &simulation.walls {
+            wall.mirror(&simulation.mesh, &mut simulation.contacts);
+        }
         simulation.respond(simulation.end());
         simulation.touch(&mut |_| {});
         if let Some((body, [distance, least])) =
@@ -393,6 +396,9 @@ impl Simulation {
                 },
             );
         }
+        for (given, torque) in self.walls_gave.moment.iter_mut().zip(self.contacts.barred()) {
+            *given -= self.kick * torque;
+        }
     }
 
     /// The rest of the step in one pass through memory: velocities at the middle of the next drift,
@@ -407,7 +413,7 @@ impl Simulation {
             std::array::from_fn(|d| v[d] + half / mesh.mass(i) * force[d][i])
         };
         enter(Phase::Work);
-        self.contacts.work((mesh, state), mean, self.kick, (&mut sums.rho_rate, &mut sums.heat));
+        self.contacts.work(mesh, mean, self.kick, (&mut sums.rho_rate, &mut sums.heat));
         enter(Phase::Springs);
         let of = (mesh, &self.contacts);
         self.spring_work += self.surfaces.work(of, mean, self.kick, &mut sums.heat);
@@ -491,6 +497,12 @@ impl Simulation {
         if !self.demand.dying {
             return;
         }
+        if self.contacts.rotates() {
+            for group in self.groups.iter().filter(|group| self.volumes && group.dying != 0) {
+                let particles = group.dying_lanes().flat_map(|lane| group.particles(lane));
+                particles.for_each(|i| self.contacts.part(&self.mesh, &self.state, i));
+            }
+        }
         let mut buried = false;
         for group in self.groups.iter_mut().filter(|group| group.dying != 0) {
             if self.volumes {
@@ -506,6 +518,7 @@ impl Simulation {
             buried = true;
         }
         if buried {
+            self.contacts.let_go(&self.mesh);
             for group in &mut self.groups {
                 group.look_beyond_the_dead(&self.mesh.ratio);
             }

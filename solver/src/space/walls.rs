@@ -47,6 +47,13 @@ impl Wall {
         scene.walls.iter().map(one).collect()
     }
 
+    /// Tells contacts which particles lie on it, if it is a plane of symmetry.
+    pub fn mirror(&self, mesh: &Mesh, contacts: &mut Contacts) {
+        if !self.held.is_empty() {
+            contacts.mirror(mesh, self.axis, &self.held);
+        }
+    }
+
     /// Keeps particles on their side over a kick and a drift of these lengths; they stop at the wall
     /// at most. `seen` is told of every particle that is pushed, and whether it was stopped.
     pub fn keep(

@@ -7,6 +7,7 @@ use whipple_solver::space::scene::{Body, Scene, Shape, Side};
 use super::figures::{beside_exact, figure, profiles};
 use super::parts::schemes::{Error, Schemes};
 use super::parts::shells::{edge, outward, radius, shells};
+use super::parts::supports::{self, Supports};
 use super::parts::{Columns, gas_scene, mirror, moments, motion, resting, zonal};
 use super::{Case, Claim, Claims, Kind, Level, Quantity, Wanted, Weight, default_run, named};
 use crate::exact::Geometry;
@@ -41,12 +42,25 @@ const FIRST: f64 = 1e-4;
 const PLANAR: &str = "planar";
 const CYLINDRICAL: &str = "cylindrical";
 const SPHERICAL: &str = "spherical";
-const VARIANTS: [&str; 3] = ["", CYLINDRICAL, SPHERICAL];
+/// The geometries by their variants.
+const GEOMETRIES: [&str; 3] = ["", CYLINDRICAL, SPHERICAL];
 /// Cells along the unit of length.
 const SIZES: [usize; 3] = [8, 16, 24];
+/// All variants: the geometries, and the supports.
+const VARIANTS: [&str; 8] = supports::after(GEOMETRIES);
 /// Which density is cheaper at equal error, in the planar shock.
 const SCHEMES: Schemes =
     Schemes { case: ID, sizes: &SIZES, error: Error::Norm("density_l1"), name: "the density, L1" };
+/// Which support serves the kernel best, there.
+const SUPPORTS: Supports = Supports {
+    case: ID,
+    n: SIZES[1],
+    errors: &[
+        ("density_l1", "density, L1"),
+        ("density_error", "mean density behind the shock"),
+        ("scatter", "scatter of the density"),
+    ],
+};
 
 fn geometry(variant: &str) -> Geometry {
     match variant {
@@ -112,7 +126,8 @@ impl Case for NohSpace {
             energy: 0.5 * COLD,
             ..resting("gas", Shape::Box { size }, cells, size.map(|edge| 0.5 * edge))
         };
-        gas_scene(ID, STOP, zonal(preset), walls, [GAMMA, HEAT], body).into()
+        gas_scene(ID, STOP, supports::apply(zonal(preset), variant), walls, [GAMMA, HEAT], body)
+            .into()
     }
 
     fn measure_space(
@@ -178,9 +193,9 @@ impl Case for NohSpace {
 
     fn runs(&self, level: Level) -> Vec<RunKey> {
         let sizes = level.first(&SIZES).iter();
-        let all = sizes.flat_map(|&n| VARIANTS.map(|v| default_run(ID, n).variant(v)));
-        let rivals = if level == Level::Full { SCHEMES.runs() } else { Vec::new() };
-        all.chain(rivals).collect()
+        let all = sizes.flat_map(|&n| GEOMETRIES.map(|v| default_run(ID, n).variant(v)));
+        let rivals = [SCHEMES.runs(), SUPPORTS.runs()].concat();
+        all.chain(rivals.into_iter().filter(|_| level == Level::Full)).collect()
     }
 
     fn claims(&self) -> Vec<Claim> {
@@ -189,7 +204,7 @@ impl Case for NohSpace {
         let aim = Claims { weight: Weight::Aim, ..must };
         let swings = Claims { source: "the tolerance of the mean, of every particle", ..aim };
         let mut out = Vec::new();
-        for variant in VARIANTS {
+        for variant in GEOMETRIES {
             let name = named(variant, PLANAR);
             let within = Wanted::WithinZero;
             let share = if name == PLANAR { 0.01 } else { 0.1 };
@@ -234,7 +249,7 @@ impl Case for NohSpace {
     }
 
     fn figures(&self, records: &Records) -> Vec<Figure> {
-        let panels = VARIANTS.iter().filter_map(|variant| {
+        let panels = GEOMETRIES.iter().filter_map(|variant| {
             let [radius, density] = ["radius", "density"].map(Axis::linear);
             let runs = SIZES.map(|n| (format!("n = {n}"), default_run(ID, n).variant(variant)));
             let panel = Panel::new(named(variant, PLANAR), radius, density);
@@ -245,11 +260,11 @@ impl Case for NohSpace {
         let caption = "Density over the distance from plane, axis and centre at t = 0.6, means of thin \
                        shells by mass.";
         let mut figures = figure("noh-space-density", caption, panels);
-        figures.extend(SCHEMES.figure(records));
+        figures.extend([SUPPORTS.figure(records), SCHEMES.figure(records)].into_iter().flatten());
         figures
     }
 
     fn extra_tables(&self, records: &Records) -> Vec<Table> {
-        SCHEMES.table(records).into_iter().collect()
+        [SUPPORTS.table(records), SCHEMES.table(records)].into_iter().flatten().collect()
     }
 }

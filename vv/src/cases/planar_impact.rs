@@ -10,6 +10,7 @@ use super::parts::fit::slope;
 use super::parts::metals::{ALUMINIUM, COPPER, Metal, STEEL, TUNGSTEN};
 use super::parts::planes::{Plane, Planes, Ringing, front};
 use super::parts::schemes::{Error, Schemes};
+use super::parts::supports::{self, Supports};
 use super::parts::{Columns, last_fall, late_times, moments};
 use super::{Case, Claim, Claims, Kind, Level, Quantity, Wanted, Weight, default_run, paper_run};
 use crate::exact::hugoniot::PlanarImpact as Exact;
@@ -57,10 +58,20 @@ const SCHEMES: Schemes = Schemes {
     error: Error::Norm("pressure_l1"),
     name: "the pressure, L1",
 };
+/// Which support serves the kernel best.
+const SUPPORTS: Supports = Supports {
+    case: ID,
+    n: SIZES[1],
+    errors: &[
+        ("pressure_l1", "pressure, L1"),
+        ("pressure_error", "mean pressure behind the shock"),
+        ("noise", "noise behind the front"),
+    ],
+};
 /// Closing speeds in km/s.
 const SPEEDS: [&str; 5] = ["0.5", "1", "2", "4", "7"];
-/// The first runs when none is named: copper at 1 km/s.
-const VARIANTS: [&str; 15] = [
+/// Metals and speeds; the first runs when none is named: copper at 1 km/s.
+const SHOTS: [&str; 15] = [
     "",
     "cu-0.5",
     "cu-2",
@@ -77,6 +88,8 @@ const VARIANTS: [&str; 15] = [
     "w-steel-4",
     "w-steel-7",
 ];
+/// All variants: the shots, and the supports of the first.
+const VARIANTS: [&str; 20] = supports::after(SHOTS);
 /// Variants whose claims were looked at when the viscosity was chosen (decision 0012).
 const IN_SAMPLE: &str = "cu";
 
@@ -89,9 +102,10 @@ struct Shot {
 }
 
 impl Shot {
-    /// Of a variant; the plain one for a name that is none.
+    /// Of a variant; the plain one for a name of none.
     fn of(variant: &str) -> Self {
-        let (metals, speed) = variant.rsplit_once('-').unwrap_or(("cu", "1"));
+        let shot = SHOTS.iter().find(|shot| **shot == variant).unwrap_or(&"");
+        let (metals, speed) = shot.rsplit_once('-').unwrap_or(("cu", "1"));
         let (impactor, target) = match metals {
             "al" => (&ALUMINIUM, &ALUMINIUM),
             "w-steel" => (&TUNGSTEN, &STEEL),
@@ -173,7 +187,7 @@ impl Case for PlanarImpact {
             name: ID.into(),
             units: Units::CmGUsMbar,
             stop_time: RUN * LENGTH / fastest,
-            method: preset.space(),
+            method: supports::apply(preset.space(), variant),
             walls,
             materials,
             bodies,
@@ -270,14 +284,14 @@ impl Case for PlanarImpact {
 
     fn runs(&self, level: Level) -> Vec<RunKey> {
         let default = |n| default_run(ID, n);
-        let mut keys: Vec<RunKey> = VARIANTS.iter().map(|v| default(SIZES[1]).variant(v)).collect();
+        let mut keys: Vec<RunKey> = SHOTS.iter().map(|v| default(SIZES[1]).variant(v)).collect();
         keys.extend([SIZES[0], SIZES[2]].map(default));
         if level >= Level::Standard {
             let paper = paper_run(ID, SIZES[1]);
-            keys.extend(VARIANTS[..5].iter().map(|v| paper.clone().variant(v)));
+            keys.extend(SHOTS[..5].iter().map(|v| paper.clone().variant(v)));
         }
         if level == Level::Full {
-            keys.extend(SCHEMES.runs());
+            keys.extend([SCHEMES.runs(), SUPPORTS.runs()].concat());
         }
         keys
     }
@@ -291,7 +305,7 @@ impl Case for PlanarImpact {
         );
         let mut out = Vec::new();
         let key = |v: &str| default_run(ID, SIZES[1]).variant(v);
-        for variant in VARIANTS {
+        for variant in SHOTS {
             let (metals, speed) = variant.rsplit_once('-').unwrap_or(("cu", "1"));
             let claims = if metals == IN_SAMPLE { must.in_sample() } else { must };
             let aims = Claims { weight: Weight::Aim, ..claims };
@@ -412,12 +426,12 @@ impl Case for PlanarImpact {
         let near = Axis::linear("P / exact less one, per cent").range(-NEAR, NEAR);
         let noise = of_metals([cells, near], noise_behind_the_front).into_iter().map(with_bounds);
         figures.extend(figure("planar-impact-noise", caption, noise));
-        figures.extend(SCHEMES.figure(records));
+        figures.extend([SUPPORTS.figure(records), SCHEMES.figure(records)].into_iter().flatten());
         figures
     }
 
     fn extra_tables(&self, records: &Records) -> Vec<Table> {
-        SCHEMES.table(records).into_iter().collect()
+        [SUPPORTS.table(records), SCHEMES.table(records)].into_iter().flatten().collect()
     }
 }
 

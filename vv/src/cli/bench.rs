@@ -56,8 +56,9 @@ pub(super) fn bench(args: &BenchArgs) -> Result<u8, Failure> {
 /// Time, in us, in the middle of the impact, from which rivals are compared.
 const MIDDLE: f64 = 2.0;
 
-/// Steps of a turn of rivals, over a million particles.
+/// Updates of a turn of rivals, and its steps at least: a list serves both sides several times within them.
 const TURN: usize = 600_000;
+const STEPS: usize = 16;
 
 /// What the density of a kernel costs on carbon-carbon: the paper's Table 7.
 fn rivals(args: &BenchArgs) -> Result<(), Failure> {
@@ -77,7 +78,7 @@ fn rivals(args: &BenchArgs) -> Result<(), Failure> {
                 let particles = whipple_solver::space::Simulation::new(&scene)
                     .map_err(Failure::usage)?
                     .particles();
-                let steps = (TURN / particles).max(2) as u64;
+                let steps = (TURN / particles).max(STEPS) as u64;
                 let contest =
                     Contest { integrator, sight, from: MIDDLE, steps, rounds: args.rounds };
                 outcomes.push(rivals::compare(&scene, contest)?);

@@ -228,8 +228,9 @@ impl Contacts {
             Forces::Ellipsoids(blocks, spins) => {
                 if spins.asks() {
                     for &[a, b] in crowd.list.pairs() {
-                        let r = crowd.apart([a, b]);
-                        if r[0] * r[0] + r[1] * r[1] + r[2] * r[2] < widest {
+                        let (r, pair) = (crowd.apart([a, b]), crowd.pair([a, b]));
+                        let near = r[0] * r[0] + r[1] * r[1] + r[2] * r[2] < widest;
+                        if near && !view.apart(&pair) {
                             spins.want(a as usize);
                             spins.want(b as usize);
                         }
@@ -247,7 +248,8 @@ impl Contacts {
                         each.for_each(|(member, torque)| spins.twist(member, torque));
                     }
                 });
-                spins.couple(mesh, state, crowd.members, |i, force| {
+                spins.bar(crowd.members);
+                spins.couple((mesh, state), crowd.members, |i, force| {
                     sums.fx[i] += force[0];
                     sums.fy[i] += force[1];
                     sums.fz[i] += force[2];
@@ -263,7 +265,7 @@ impl Contacts {
     /// over the mean velocities of the step, which is of length `dt`. A single pass has summed them before.
     pub fn work(
         &mut self,
-        (mesh, state): (&Mesh, &State),
+        mesh: &Mesh,
         mean: impl Fn(usize) -> [f64; 3],
         dt: f64,
         out: (&mut [f64], &mut [f64]),
@@ -280,7 +282,7 @@ impl Contacts {
             Forces::Ellipsoids(blocks, spins) => {
                 let both = |pair: &Pair| {
                     let of = |k: usize| (pair.members[k], pair.who(k));
-                    [0, 1].map(|k| spins.mean((mesh, state), of(k), &mean, dt))
+                    [0, 1].map(|k| spins.mean(mesh, of(k), &mean, dt))
                 };
                 work(blocks, mesh, (&mean, dt), both, out);
             }
@@ -434,12 +436,20 @@ impl View<'_> {
         power[b] += work.power[1];
     }
 
+    /// Whether surfaces keep a pair apart.
+    #[inline(always)]
+    fn apart(&self, pair: &Pair) -> bool {
+        let [particles, bodies] =
+            [pair.particles.map(|i| i as usize), pair.bodies.map(usize::from)];
+        self.volumes && self.mesh.keeps_apart(particles, bodies)
+    }
+
     /// The contact of a pair at distance `r`, if there is one.
     #[inline]
     fn contact<S: Shape>(&self, shape: &S, pair: Pair, r: [f64; 3]) -> Option<Active<S::Normals>> {
         let [i, j] = pair.particles.map(|k| k as usize);
         let bodies = pair.bodies.map(usize::from);
-        if self.volumes && self.mesh.keeps_apart([i, j], bodies) {
+        if self.apart(&pair) {
             return None;
         }
         let square = r[0] * r[0] + r[1] * r[1] + r[2] * r[2];
@@ -501,33 +511,34 @@ impl View<'_> {
     }
 
     /// Lessens viscous torques as [`View::damp`] does forces: they are so much stiffer than those that the printed ones
-    /// would ask for a fiftieth of the step (decision 0021). Returns how often.
+    /// would ask for a fiftieth of the step. Along every axis a contact takes of the spin of a particle with `n` of them
+    /// at most [`BEARABLE`] / `n` in a kick (decision 0021). Returns how often it was less than two thirds of the torque:
+    /// where as much was borne as printed.
     fn ease(&self, blocks: &mut [Vec<Active<Arms>>], most: f64, spins: &mut Spins) -> u64 {
         let mut lessened = 0;
-        let rate = |pair: &Pair, k: usize, coefficient: f64| {
-            coefficient / pair.who(k).inertia(self.mesh).min()
-        };
         let twisted = |contact: &&mut Active<Arms>| contact.normals.coefficient > 0.0;
         for contact in blocks.iter_mut().flatten().filter(twisted) {
-            for k in 0..2 {
-                let own = rate(&contact.pair, k, contact.normals.coefficient);
-                *spins.damping(contact.pair.members[k]) += own;
-            }
+            contact.pair.members.into_iter().for_each(|member| spins.count(member));
         }
         for contact in blocks.iter_mut().flatten().filter(twisted) {
+            let pair = contact.pair;
             let crossing = |k: usize| {
-                let body = &self.mesh.bodies[usize::from(contact.pair.bodies[k])];
-                body.solid.sound / (CROSSING * body.edge())
+                let body = &self.mesh.bodies[usize::from(pair.bodies[k])];
+                let sound = self.derived.sound[pair.particles[k] as usize];
+                body.solid.sound.max(sound) / (CROSSING * body.edge())
             };
             // No kick is longer than the vote of sound.
             let most = if most.is_finite() { most } else { crossing(0).max(crossing(1)) };
-            let [a, b] = contact.pair.members.map(|member| *spins.damping(member));
-            let part = (BEARABLE * most / a.max(b)).min(1.0);
-            contact.normals.ease(part);
-            lessened += u64::from(part < 1.0);
+            let softness = |k: usize| {
+                let inertia = pair.who(k).inertia(self.mesh);
+                let count = spins.twisted(pair.members[k]);
+                (spins.of(pair.members[k]).axes, inertia.map(|j| count / (BEARABLE * most * j)))
+            };
+            let softness = [softness(0), softness(1)];
+            lessened += u64::from(contact.normals.ease(&softness));
         }
         for contact in blocks.iter().flatten() {
-            contact.pair.members.into_iter().for_each(|member| *spins.damping(member) = 0.0);
+            contact.pair.members.into_iter().for_each(|member| spins.forget(member));
         }
         lessened
     }

@@ -289,8 +289,35 @@ impl Contacts {
         let spins = self.forces.spins()?;
         let contact_lengths = mesh.bodies[mesh.place(i).0].ellipsoid?;
         let own = self.find(i).and_then(|member| spins.rigid(member));
-        let axes = own.map_or_else(|| Spins::held_axes(mesh, state, i), Rigid::axes);
+        let axes = own.map_or_else(|| spins.held_axes(mesh, state, i), Rigid::axes);
         Some(Ellipsoid { axes, half_lengths: half_lengths(contact_lengths), contact_lengths })
+    }
+
+    /// Notes how a particle lies before elements round it die; nothing of spheres.
+    pub fn part(&mut self, mesh: &Mesh, state: &State, i: usize) {
+        if let Some(spins) = self.forces.spins_mut() {
+            spins.part(mesh, state, i);
+        }
+    }
+
+    /// What was noted and no element holds any more begins to rotate on its own.
+    pub fn let_go(&mut self, mesh: &Mesh) {
+        let index = &self.index;
+        if let Some(spins) = self.forces.spins_mut() {
+            spins.let_go(mesh, |i| (index[i] != NONE).then_some(index[i] as usize));
+        }
+    }
+
+    /// Particles lie on a mirror normal to an axis; nothing of spheres.
+    pub fn mirror(&mut self, mesh: &Mesh, axis: usize, particles: &[u32]) {
+        if let Some(spins) = self.forces.spins_mut() {
+            spins.mirror(mesh, axis, particles);
+        }
+    }
+
+    /// Torque on particles that mirrors took in the present step.
+    pub(super) fn barred(&self) -> [f64; 3] {
+        self.forces.spins().map_or([0.0; 3], Spins::barred)
     }
 
     /// Number of members.

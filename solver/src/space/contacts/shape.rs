@@ -1,5 +1,7 @@
 //! How two particles meet: spheres along the line between them, ellipsoids across it.
 
+use nalgebra::{Matrix3, Vector3};
+
 use crate::space::lattice::{cross, dot};
 use crate::space::mesh::Mesh;
 use crate::space::spin::{Spins, Who};
@@ -154,9 +156,25 @@ impl Shape for Spins {
 }
 
 impl Arms {
-    /// Lessens the viscous torque.
-    pub(super) fn ease(&mut self, part: f64) {
-        self.torsion = self.torsion.map(|torque| part * torque);
+    /// Lessens the viscous torque to what both bear: with the sum `X` of their softnesses, each given by its axes and what
+    /// it is along them, times the coefficient it is multiplied by `(1 + X) / (1 + X + X^2)`. That is less than one and
+    /// than `1 / X`, and one where `X` is small. Tells whether it is lessened by more than a third.
+    pub(super) fn ease(&mut self, softness: &[([[f64; 3]; 3], Vector3<f64>); 2]) -> bool {
+        let mut x = Matrix3::zeros();
+        for (axes, along) in softness {
+            for (axis, along) in axes.iter().zip(along.iter()) {
+                let axis = Vector3::from(*axis);
+                x += (self.coefficient * along) * axis * axis.transpose();
+            }
+        }
+        let printed = Vector3::from(self.torsion);
+        let partly = printed + x * printed;
+        let all = Matrix3::identity() + x + x * x;
+        // Where nothing is borne, as of a gas without sound, there is none.
+        let eased = all.try_inverse().map_or_else(Vector3::zeros, |inverse| inverse * partly);
+        let eased = if eased.iter().all(|x| x.is_finite()) { eased } else { Vector3::zeros() };
+        self.torsion = eased.into();
+        eased.norm() < 2.0 / 3.0 * printed.norm()
     }
 }
 
@@ -197,7 +215,7 @@ impl Normals for Arms {
 
 #[cfg(test)]
 mod tests {
-    use nalgebra::{UnitQuaternion, Vector3};
+    use nalgebra::UnitQuaternion;
 
     use super::*;
     use crate::space::spin::Rigid;
@@ -272,5 +290,31 @@ mod tests {
             + 0.3 * dot(two.r, two.v)
             + arms.torsion_power(two.spins);
         assert!((power / given - 1.0).abs() < 1e-13, "{power} {given}");
+    }
+
+    /// A viscous torque of a slender particle is lessened along the axes that bear less than is printed, and along no other.
+    #[test]
+    fn torques_are_lessened_along_the_axes_that_cannot_bear_them() {
+        let axes = Rigid {
+            turn: UnitQuaternion::from_euler_angles(0.4, -1.0, 0.3),
+            momentum: Vector3::zeros(),
+        }
+        .axes();
+        let along = |printed: f64| Arms {
+            ways: [[0.0; 3]; 2],
+            coefficient: 2.0,
+            torsion: std::array::from_fn(|d| (0..3).map(|k| printed * axes[k][d]).sum()),
+        };
+        // The first axis bears a hundredth of what is printed, the others a hundred times as much.
+        let softness = (axes, Vector3::new(50.0, 0.005, 0.005));
+        let mut arms = along(3.0);
+        assert!(!arms.ease(&[softness, (axes, Vector3::zeros())]));
+        let given = axes.map(|axis| dot(axis, arms.torsion));
+        assert!(given[0] > 0.0 && given[0] < 0.03 && given[0] > 0.029, "{given:?}");
+        assert!(given[1..].iter().all(|given| (given / 3.0 - 1.0).abs() < 2e-4), "{given:?}");
+        // Two that bear nothing.
+        let mut arms = along(3.0);
+        assert!(arms.ease(&[(axes, Vector3::repeat(f64::INFINITY)), softness]));
+        assert_eq!(arms.torsion, [0.0; 3]);
     }
 }

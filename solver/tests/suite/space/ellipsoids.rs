@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use nalgebra::{UnitQuaternion, Vector3};
 use whipple_solver::method::{Density, Preset};
 use whipple_solver::space::method::{Method, Particles};
+use whipple_solver::space::output::{Ellipsoid, Particle};
 use whipple_solver::space::scene::{Body, Scene, Shape, Side, Turn};
 use whipple_solver::space::spin::Rigid;
 use whipple_solver::space::{Simulation, lattice};
@@ -132,8 +133,70 @@ fn debris_of_bricks_rotates() {
     let lost = [b.momentum_drift(), b.angular_drift(), b.energy_drift(), b.relative_residual()];
     let dead = simulation.failed().1;
     println!("{lost:?}, dead {dead}, acting {}", simulation.acting());
-    assert!(dead > 15 && simulation.acting() > 50);
+    assert!(dead > 10 && simulation.acting() > 50);
     assert!(lost[..3].iter().all(|lost| *lost < 1e-12), "{lost:?}");
+}
+
+/// No particle turns on the spot when its last element dies: it goes on from how its live cells held it.
+#[test]
+fn what_is_let_go_lies_as_it_was_held() {
+    let mut scene = collision(Density::Hybrid);
+    crumbling(&mut scene);
+    let mut simulation = start(&scene);
+    let free = |simulation: &Simulation| -> Vec<bool> {
+        simulation.all_particles().map(|p| p.held == 0.0).collect()
+    };
+    let (mut before, mut loose) = (poses(&simulation), free(&simulation));
+    let (mut worst, mut count) = (0.0f64, 0);
+    for _ in 0..400 {
+        march(&mut simulation, 1);
+        let (lie, now) = (poses(&simulation), free(&simulation));
+        for k in (0..now.len()).filter(|&k| now[k] && !loose[k]) {
+            let turned = (0..3).map(|axis| norm(sub(before[k][axis], lie[k][axis])));
+            worst = turned.fold(worst, f64::max);
+            count += 1;
+        }
+        (before, loose) = (lie, now);
+    }
+    println!("{count} let go; most that one turned in that step: {worst:.3}");
+    assert!(count > 15 && worst < 0.05, "{count}, {worst}");
+}
+
+/// What lies on a mirror turns about its normal alone, as beside its images; what the mirror takes is booked.
+#[test]
+fn what_lies_on_a_mirror_turns_in_it() {
+    for density in DENSITIES {
+        let one = |material: &str, cells: [usize; 3], edges: [f64; 3]| {
+            let middle = 0.5 * cells[2] as f64 * edges[2];
+            Body { centre: [0.0, 0.0, middle], ..bricks(material, cells, edges) }
+        };
+        let fast = one("tungsten", [2, 5, 2], [0.2, 0.1, 0.07]);
+        let fast = Body { velocity: [0.1, -0.03, 0.0], ..fast };
+        let slow = one("steel", [4, 3, 1], [0.1, 0.2, 0.15]);
+        let slow = Body { centre: [0.47, 0.06, slow.centre[2]], ..slow };
+        let mut half = scene(vec![tungsten(), steel()], vec![fast, slow]);
+        crumbling(&mut half);
+        half.method = collision(density).method;
+        half.walls.push(mirror(2, 0.0, Side::Above));
+        let mut simulation = start(&half);
+        let own = |p: &Particle| p.position[2].abs() < 1e-9;
+        let on: Vec<u32> = simulation.all_particles().filter(own).map(|p| p.id).collect();
+        march(&mut simulation, 150);
+        let (mut out, mut within) = (0.0f64, 0.0f64);
+        for &id in &on {
+            let [_, _, _, xy, xz, yz] = shape(simulation.ellipsoid(id).expect("an ellipsoid"));
+            (out, within) = (out.max(xz.abs()).max(yz.abs()), within.max(xy.abs()));
+        }
+        let b = simulation.balance();
+        let lost = [b.momentum_drift(), b.angular_drift(), b.energy_drift()];
+        println!(
+            "{density:?}: {} on it turned {within:.2} in it, {out:.1e} out of it, {lost:?}, dead {}",
+            on.len(),
+            simulation.failed().1
+        );
+        assert!(within > 0.05 && out < 1e-12 && simulation.failed().1 > 2, "{density:?}");
+        assert!(lost.iter().all(|lost| *lost < 1e-12), "{lost:?}");
+    }
 }
 
 /// Makes elements die of little compression.
@@ -231,6 +294,16 @@ fn one_turn_of_a_block_of_bricks() {
         assert!(energy.abs() < 1e-4 && b.angular_drift() < 1e-12);
         assert!(turned < 0.01, "{density:?}: {turned}");
     }
+}
+
+/// The tensor of an ellipsoid over the square of its longest contact length.
+fn shape(ellipsoid: Ellipsoid) -> [f64; 6] {
+    let Ellipsoid { axes, contact_lengths, .. } = ellipsoid;
+    let longest = contact_lengths.into_iter().fold(0.0, f64::max);
+    let part = |i: usize, j: usize| {
+        (0..3).map(|k| (contact_lengths[k] / longest).powi(2) * axes[k][i] * axes[k][j]).sum()
+    };
+    [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)].map(|(i, j)| part(i, j))
 }
 
 fn poses(simulation: &Simulation) -> Vec<[[f64; 3]; 3]> {

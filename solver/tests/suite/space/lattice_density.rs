@@ -46,7 +46,7 @@ fn along(path: impl Fn(f64) -> F) -> f64 {
         sums.rho_rate.fill(0.0);
         let marks = (&mut sums, &mut touched[..], &mut active[..]);
         contacts.push(&mesh, (&state, &derived), (&method, dt, f64::INFINITY), marks);
-        contacts.work((&mesh, &state), |i| mean[i], dt, (&mut sums.rho_rate, &mut sums.heat));
+        contacts.work(&mesh, |i| mean[i], dt, (&mut sums.rho_rate, &mut sums.heat));
         for &(i, _) in &start {
             rate[i] = sums.rho_rate[i];
             rho[i] += dt * rate[i];

@@ -18,6 +18,7 @@ pub(super) mod schemes;
 pub(super) mod shapes;
 pub(super) mod shells;
 pub(super) mod studies;
+pub(super) mod supports;
 
 use std::collections::BTreeMap;
 
