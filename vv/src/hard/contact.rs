@@ -1,11 +1,13 @@
 //! Contact between bodies: unlike densities, gaps, grazing, and what is left of a plate.
 
+use whipple_solver::method::Density;
 use whipple_solver::scene::{
     Body as Stretch, Boundaries, Boundary, EosData, Interface, Layout, Material as Gas, Profile,
     Scene as Line,
 };
 use whipple_solver::space::Simulation;
-use whipple_solver::space::scene::{Body, EosData as SpaceEos, Material, Scene, Shape};
+use whipple_solver::space::method::Method;
+use whipple_solver::space::scene::{Body, EosData as SpaceEos, Failure, Material, Scene, Shape};
 use whipple_solver::units::Units;
 
 use super::measure::{Planes, energy, largest, mean, norm};
@@ -48,7 +50,8 @@ fn foam(sheet: &mut Sheet, finer: usize) -> Result<(), RunError> {
         }
         gas @ SpaceEos::IdealGas { .. } => gas,
     };
-    let foam = Material { name: "foam".into(), density, eos, ..COPPER.fluid() };
+    let failure = Failure { compression: 0.05, ..Failure::default() };
+    let foam = Material { name: "foam".into(), density, eos, failure, ..COPPER.fluid() };
     let across = if finer == 1 { 3 } else { 1 };
     let width = across as f64 * EDGE;
     let fine = EDGE / finer as f64;
@@ -193,14 +196,21 @@ pub(super) fn gaps(sheet: &mut Sheet) {
     });
 }
 
+/// Distance at which bodies of cubic cells feel each other: half an edge of the springs between surfaces, or where
+/// contacts begin at the reference density, node on node.
+fn felt(method: &Method) -> f64 {
+    let length = 0.5 * 3f64.sqrt() * EDGE;
+    match method.density {
+        Density::Hybrid => 0.5 * EDGE,
+        Density::Nonholonomic => length * (1.0 + method.contact_tolerance).min(method.reach()),
+        Density::Kernel => length * method.reach(),
+    }
+}
+
 /// Time of the first force, the step then, and the largest pressure, of plates that close a gap at 1.5 km/s.
 fn closing(sheet: &Sheet, gap: f64) -> Result<[f64; 3], RunError> {
-    // Beyond the distance at which bodies feel each other: half an edge, or the reach of contacts.
     let method = sheet.space();
-    let felt = match method.density {
-        whipple_solver::method::Density::Hybrid => 0.5 * EDGE,
-        _ => 0.5 * 3f64.sqrt() * EDGE * method.reach(),
-    };
+    let felt = felt(&method);
     let plate = |centre: f64, velocity: f64| Body {
         centre: [centre, 0.0, 0.0],
         velocity: [velocity, 0.0, 0.0],
@@ -242,7 +252,7 @@ pub(super) fn grazing(sheet: &mut Sheet) {
                 let half = 0.5 * cells[2] as f64 * EDGE;
                 let above = Body {
                     name: name.into(),
-                    centre: [-1.5 * EDGE, 0.0, half + EDGE],
+                    centre: [-1.5 * EDGE, 0.0, half + 1.02 * felt(&sheet.space())],
                     velocity: [v * s, 0.0, -v * c],
                     ..body("steel", shape, cells)
                 };
@@ -251,11 +261,7 @@ pub(super) fn grazing(sheet: &mut Sheet) {
         }
     }
     sheet.part("block slides past at 0.999 of its contact distance", |sheet| {
-        let method = sheet.space();
-        let felt = match method.density {
-            whipple_solver::method::Density::Hybrid => 0.5 * EDGE,
-            _ => 0.5 * 3f64.sqrt() * EDGE,
-        };
+        let felt = felt(&sheet.space());
         let half = 0.5 * n as f64 * EDGE;
         let above = Body {
             centre: [-1.5 * EDGE, 0.0, half + 0.999 * felt],
@@ -283,7 +289,8 @@ fn graze(sheet: &mut Sheet, above: Body, flat: bool) -> Result<(), RunError> {
         highest = highest.max(balance.now.energy() / balance.initial.energy() - 1.0);
     }
     let given: [f64; 3] = std::array::from_fn(|d| simulation.holdings()[0].momentum[d] - start[d]);
-    let tangential = norm([given[0], given[1], 0.0]) / given[2].abs();
+    let round_off = 1e-12 * norm(start);
+    let tangential = norm([given[0], given[1], 0.0]) / given[2].abs().max(round_off);
     if flat {
         sheet.at_most("momentum along the plate over the impulse", tangential, 0.01);
     } else {

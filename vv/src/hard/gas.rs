@@ -14,7 +14,7 @@ use crate::run::RunError;
 use crate::scene::AnyScene;
 
 /// A scene along a line of a case, with a density scheme.
-fn of_case(sheet: &Sheet, id: &str, n: usize) -> Result<Scene, RunError> {
+pub(super) fn of_case(sheet: &Sheet, id: &str, n: usize) -> Result<Scene, RunError> {
     let found = find(id).map(|case| case.scene(sheet.preset(), "", n));
     let Some(AnyScene::Line(mut scene)) = found else {
         return Err(RunError::NotThere { case: id.into(), what: "along a line".into() });

@@ -46,6 +46,24 @@ pub(super) fn threads(sheet: &mut Sheet) {
         }
         Ok(())
     });
+    sheet.part("Sod along a line, 4000 particles, 200 steps", |sheet| {
+        let scene = super::gas::of_case(sheet, "sod", 4000)?;
+        let run = |threads: usize| {
+            with_threads(threads, || {
+                let mut solver = whipple_solver::build(&scene)?;
+                for _ in 0..200 {
+                    solver.step(f64::INFINITY)?;
+                }
+                Ok(solver.snapshot())
+            })
+        };
+        let alone = run(1)?;
+        for threads in [2, 3, 8, 16] {
+            let differs = f64::from(u8::from(run(threads)? != alone));
+            sheet.at_most(&format!("states that differ with {threads} threads"), differs, 0.0);
+        }
+        Ok(())
+    });
     sheet.part("bodies in the other order, 100 steps", |sheet| {
         let scene = impact(sheet);
         let mut other = scene.clone();
