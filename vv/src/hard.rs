@@ -5,6 +5,7 @@
 //! with the densities of `default` and with `paper`.
 
 mod contact;
+mod dust;
 mod forms;
 mod frames;
 mod gas;
@@ -72,11 +73,11 @@ pub const ALL: [HardCase; 30] = [
     run("H11", contact::grazing),
     run("H12", shocks::fast),
     run("H13", gas::near_vacuum),
-    not("H14", "not written yet: needs a heat source, which no scene has"),
+    run("H14", forms::melted),
     run("H15", shocks::rarefied),
     run("H16", rotation::large),
     run("H17", shocks::flat_cells),
-    not("H18", "a body has a cell at least, so that no scene holds a single pair of particles"),
+    run("H18", dust::crossing),
     run("H19", frames::mirrored),
     run("H20", numerics::threads),
     run("H21", numerics::restart),
@@ -87,7 +88,7 @@ pub const ALL: [HardCase; 30] = [
         "H25",
         "a body is turned with its lattice, so that no flat face lies oblique to the lattice",
     ),
-    run("H26", numerics::quiet_flight),
+    run("H26", dust::quiet_flight),
     run("H27", rotation::spinning),
     run("H28", forms::one_fast_particle),
     run("H29", numerics::neighbours),

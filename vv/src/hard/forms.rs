@@ -5,8 +5,10 @@ use whipple_solver::space::method::Release;
 use whipple_solver::space::output::Particle;
 
 use super::measure::{energy, largest, minus};
-use super::scenes::{COPPER, DISPLACEMENT, STEEL, VELOCITY, begin, block, march, scene, shift};
-use super::sheet::Sheet;
+use super::scenes::{
+    ALUMINIUM, COPPER, DISPLACEMENT, STEEL, VELOCITY, begin, block, march, scene, shift,
+};
+use super::sheet::{Bound, Sheet};
 use crate::run::RunError;
 
 /// Edge of a cell in cm.
@@ -85,29 +87,99 @@ pub(super) fn ramp(sheet: &mut Sheet) {
     });
 }
 
+/// A block of elastic copper in uniform shear that fails at this temperature, over so many steps of this part of
+/// their length: all of it at once where it is below that of the block, 300.02 K.
+fn sheared(
+    sheet: &Sheet,
+    (steps, cfl): (f64, f64),
+    melt: Option<f64>,
+) -> Result<Simulation, RunError> {
+    let [.., c_v] = COPPER.constants;
+    let mut metal = COPPER.elastic();
+    metal.failure.melt = melt;
+    let mut scene = scene(sheet.space(), vec![metal], vec![block("copper", [6; 3], EDGE)]);
+    scene.bodies[0].energy = 0.02 * c_v;
+    scene.method.release = Release::Steps(steps);
+    scene.method.cfl *= cfl;
+    begin(&scene, DISPLACEMENT, |p| [0.01 * p.position[1], 0.0, 0.0])
+}
+
 /// Heat of damage and the largest kinetic energy, over the energy that was stored in shear.
 fn failing(sheet: &Sheet, steps: f64, cfl: f64) -> Result<[f64; 2], RunError> {
-    let sheared = |melt: Option<f64>| {
-        let [.., c_v] = COPPER.constants;
-        let mut metal = COPPER.elastic();
-        metal.failure.melt = melt;
-        let mut scene = scene(sheet.space(), vec![metal], vec![block("copper", [6; 3], EDGE)]);
-        scene.bodies[0].energy = 0.02 * c_v;
-        scene.method.release = Release::Steps(steps);
-        scene.method.cfl *= cfl;
-        begin(&scene, DISPLACEMENT, |p| [0.01 * p.position[1], 0.0, 0.0])
-    };
     // What never fails tells what is stored.
-    let mut whole = sheared(None)?;
+    let mut whole = sheared(sheet, (steps, cfl), None)?;
     march(&mut whole, 1)?;
     let stored = whole.holdings()[0].shear;
-    let mut simulation = sheared(Some(300.01))?;
+    let mut simulation = sheared(sheet, (steps, cfl), Some(300.01))?;
     let mut most = 0.0f64;
     for _ in 0..300 {
         simulation.step(f64::INFINITY)?;
         most = most.max(simulation.holdings()[0].kinetic);
     }
     Ok([simulation.balance().element_heat / stored, most / stored])
+}
+
+/// H14: a strained block that is as hot as its melt temperature from the start, since no scene has a source of heat; and
+/// aluminium that melts in a shock.
+pub(super) fn melted(sheet: &mut Sheet) {
+    sheet.part("sheared block at the melt temperature", |sheet| {
+        let steps = match sheet.space().release {
+            Release::Steps(steps) | Release::Crossings(steps) => steps,
+        };
+        let [mut whole, mut simulation] =
+            [sheared(sheet, (steps, 1.0), None)?, sheared(sheet, (steps, 1.0), Some(300.01))?];
+        whole.step(f64::INFINITY)?;
+        let strongest = |simulation: &Simulation| {
+            largest(simulation.all_elements().map(|e| e.equivalent_stress))
+        };
+        let first = strongest(&whole);
+        let mut most = 0.0f64;
+        for _ in 0..300 {
+            simulation.step(f64::INFINITY)?;
+            most = most.max(strongest(&simulation));
+        }
+        sheet.at_most("largest stress over the initial one", most / first, 2.0);
+        sheet.at_most(
+            "stress at the end over the initial one",
+            strongest(&simulation) / first,
+            1e-9,
+        );
+        sheet.at_most("error of the energy balance", simulation.balance().energy_drift(), 1e-10);
+        Ok(())
+    });
+    for speed in [5.0, 6.0, 7.0] {
+        sheet.part(format!("plates of aluminium at {speed} km/s"), |sheet| {
+            let up = 0.05 * speed;
+            let exact = ALUMINIUM.hugoniot()?.at_particle_speed(up)?;
+            let n = sheet.size(60, 30);
+            let size = ([n, 3, 3], [EDGE; 3]);
+            let mut scene = super::shocks::column(sheet, &ALUMINIUM, size, up);
+            scene.materials = vec![ALUMINIUM.ductile([0.0029, 125.0, 0.1, 930.0])];
+            let mut simulation = Simulation::new(&scene)?;
+            let end = 0.8 * n as f64 * EDGE / exact.shock_speed;
+            let (mut peak, mut soft) = (0.0f64, 0.0f64);
+            while simulation.time() < end {
+                simulation.step(end)?;
+                peak = simulation.all_particles().map(|p| p.pressure).fold(peak, f64::max);
+                let lost = simulation.all_elements().filter(|e| e.damage >= 1.0);
+                soft = soft.max(largest(lost.map(|e| e.equivalent_stress)));
+            }
+            sheet.at_least("elements that have failed", simulation.failed().0 as f64, 1.0);
+            sheet.at_most("largest pressure over the Hugoniot's", peak / exact.pressure, 2.0);
+            sheet.enter(
+                "shear stress in what has lost its strength",
+                "Mbar",
+                soft,
+                Bound::AtMost(0.0),
+            );
+            sheet.at_most(
+                "error of the energy balance",
+                simulation.balance().energy_drift(),
+                1e-10,
+            );
+            Ok(())
+        });
+    }
 }
 
 /// H28: a particle at 1000 km/s in a cold block.

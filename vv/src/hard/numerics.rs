@@ -1,12 +1,12 @@
-//! Threads, restarts, neighbour lists, and long flights.
+//! Threads, restarts and neighbour lists.
 
 use rayon::ThreadPoolBuilder;
 use whipple_solver::space::near::{DEBRIS, EXPOSED, PairList, Points, Reach};
-use whipple_solver::space::scene::{Body, Scene};
+use whipple_solver::space::scene::Scene;
 use whipple_solver::space::{Simulation, restart::Section};
 
 use super::measure::{apart, at_pace, largest, pace};
-use super::scenes::{COPPER, VELOCITY, block, march, rod, scatter, scene, shift};
+use super::scenes::{march, rod};
 use super::sheet::Sheet;
 use crate::run::RunError;
 use crate::space::checkpoint::{load, save};
@@ -118,59 +118,6 @@ pub(super) fn restart(sheet: &mut Sheet) {
         sheet.at_most("fields apart", largest(fields), 0.0);
         let same = whole.balance() == again.balance() && whole.counters() == again.counters();
         sheet.at_most("balances or counters that differ", f64::from(u8::from(!same)), 0.0);
-        Ok(())
-    });
-}
-
-/// H26: a cloud of loose particles flies apart for 100 us.
-pub(super) fn quiet_flight(sheet: &mut Sheet) {
-    sheet.part("dust that flies apart", |sheet| {
-        let cells = sheet.size(36, 10);
-        let end = sheet.size(100.0, 30.0);
-        let mut metal = COPPER.fluid();
-        metal.failure.melt = Some(301.0);
-        let edge = 0.1;
-        let body = Body { energy: 1e-5, ..block("copper", [cells; 3], edge) };
-        let mut start = scene(sheet.space(), vec![metal], vec![body]);
-        start.stop_time = end;
-        let mut simulation = Simulation::new(&start)?;
-        // Every element dies of its temperature, and only then the dust is sent on its way.
-        march(&mut simulation, 40)?;
-        sheet.at_most(
-            "elements alive",
-            (simulation.elements() - simulation.failed().1) as f64,
-            0.0,
-        );
-        let size = cells as f64 * edge;
-        let rate = 0.3 / size;
-        let mut cloud = shift(&start, &simulation, VELOCITY, |p| {
-            std::array::from_fn(|d| {
-                let wobble = 0.01 * scatter(3 * u64::from(p.id) + d as u64);
-                rate * p.position[d] + rate * size * wobble
-            })
-        })?;
-        let particles = cloud.particles() as f64;
-        sheet.shown("particles", particles);
-        let mut costs = Vec::new();
-        let begin = cloud.time();
-        for k in 1..=10 {
-            let (before, steps) = (cloud.searches(), cloud.counters().steps);
-            cloud.advance_to(begin + (end - begin) * f64::from(k) / 10.0)?;
-            let tests = (cloud.searches().tests - before.tests) as f64;
-            costs.push(tests / (cloud.counters().steps - steps) as f64);
-        }
-        let balance = cloud.balance();
-        sheet.at_most("error of the momentum", balance.momentum_drift(), 1e-11);
-        sheet.at_most("error of the angular momentum", balance.angular_drift(), 1e-11);
-        sheet.at_most("error of the energy", balance.energy_drift(), 1e-9);
-        let (first, last) = (costs[0], costs[costs.len() - 1]);
-        sheet.at_most(
-            "distances compared a step, last tenth over the first",
-            last / first.max(1.0),
-            1.2,
-        );
-        let far = largest(cloud.all_particles().flat_map(|p| p.position));
-        sheet.shown("domain over that at the start", (far / (0.5 * size)).powi(3));
         Ok(())
     });
 }

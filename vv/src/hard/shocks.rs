@@ -15,7 +15,12 @@ use crate::run::RunError;
 const EDGE: f64 = 0.1;
 
 /// A column that runs into a wall at x = 0 which it may leave.
-fn column(sheet: &Sheet, metal: &Metal, (cells, edges): ([usize; 3], [f64; 3]), up: f64) -> Scene {
+pub(super) fn column(
+    sheet: &Sheet,
+    metal: &Metal,
+    (cells, edges): ([usize; 3], [f64; 3]),
+    up: f64,
+) -> Scene {
     let length = cells[0] as f64 * edges[0];
     let body = Body {
         centre: [0.5 * length, 0.0, 0.0],
