@@ -220,11 +220,13 @@ fn closing(sheet: &Sheet, gap: f64) -> Result<[f64; 3], RunError> {
     let mut scene = scene(method, vec![COPPER.fluid()], vec![plate(-half, 0.15), plate(half, 0.0)]);
     scene.walls = sleeve([3.0 * EDGE; 2]);
     let mut simulation = Simulation::new(&scene)?;
+    let whole = simulation.holdings()[0].momentum[0];
     let (mut first, mut step, mut peak) = (f64::NAN, f64::NAN, 0.0f64);
     while simulation.time() < 3.0 {
         let before = simulation.time();
         simulation.step(3.0)?;
-        if first.is_nan() && simulation.holdings()[1].momentum[0] != 0.0 {
+        let handed = simulation.holdings()[1].momentum[0];
+        if first.is_nan() && handed.abs() > 1e-12 * whole {
             (first, step) = (before, simulation.time() - before);
         }
         peak = simulation.all_particles().map(|p| p.pressure).fold(peak, f64::max);

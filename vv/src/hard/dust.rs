@@ -4,13 +4,16 @@ use whipple_solver::space::Simulation;
 use whipple_solver::space::output::Particle;
 use whipple_solver::space::scene::{Body, Scene};
 
-use super::measure::{largest, norm};
-use super::scenes::{COPPER, DISPLACEMENT, VELOCITY, block, march, scatter, scene, shift};
+use super::measure::{largest, minus, norm};
+use super::scenes::{COPPER, DISPLACEMENT, VELOCITY, begin, block, march, scatter, scene, shift};
 use super::sheet::Sheet;
 use crate::run::RunError;
 
 /// Edge of a cell in cm.
 const EDGE: f64 = 0.1;
+
+/// Rate at which cells are torn apart, 1/us.
+const TEARING: f64 = 0.1;
 
 /// Cold bodies of copper whose elements die at once of their temperature.
 fn crumbling(sheet: &Sheet, bodies: Vec<Body>) -> Scene {
@@ -20,10 +23,13 @@ fn crumbling(sheet: &Sheet, bodies: Vec<Body>) -> Scene {
     scene(sheet.space(), vec![metal], bodies.into_iter().map(warm).collect())
 }
 
-/// A scene whose elements have all died; how many are left is entered.
+/// A scene whose elements have all died, torn apart by a motion that is then stopped; how many are left is entered.
 fn dust(sheet: &mut Sheet, scene: &Scene) -> Result<Simulation, RunError> {
-    let mut simulation = Simulation::new(scene)?;
-    march(&mut simulation, 40)?;
+    let centre = |p: &Particle| scene.bodies[p.body].centre;
+    let apart = |p: &Particle| minus(p.position, centre(p)).map(|x| TEARING * x);
+    let mut torn = begin(scene, VELOCITY, apart)?;
+    march(&mut torn, 60)?;
+    let simulation = shift(scene, &torn, VELOCITY, |p| p.velocity.map(|v| -v))?;
     let alive = simulation.elements() - simulation.failed().1;
     sheet.at_most("elements alive", alive as f64, 0.0);
     Ok(simulation)

@@ -212,6 +212,8 @@ pub(super) fn shift(
             (Values::F64(column), Some(axis)) => {
                 added.iter().for_each(|(i, by)| column[*i] += by[axis]);
             }
+            // What was done so far is none of what begins here.
+            (Values::F64(books), _) if name == "run.ledger" => books.fill(0.0),
             (Values::U8(flags), _) if name == "group.awake" || name == "piece.active" => {
                 flags.fill(1);
             }

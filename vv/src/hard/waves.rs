@@ -104,7 +104,7 @@ pub(super) fn unequal_sizes(sheet: &mut Sheet) {
     for ratio in [2usize, 4, 10] {
         sheet.part(format!("blocks that collide, cells 1:{ratio}"), |sheet| {
             let fine = 0.2 / ratio as f64;
-            let across = sheet.size(2, 1) * ratio;
+            let across = ratio;
             let small = SpaceBody {
                 centre: [-0.5 * 0.2 - 0.2, 0.013, 0.007],
                 velocity: [0.05, 0.0, 0.0],
@@ -114,7 +114,7 @@ pub(super) fn unequal_sizes(sheet: &mut Sheet) {
             let metals = vec![STEEL.fluid(), COPPER.fluid()];
             let scene = scene(sheet.space(), metals, vec![small, large]);
             let mut simulation = Simulation::new(&scene)?;
-            simulation.advance_to(6.0)?;
+            simulation.advance_to(4.0)?;
             let balance = simulation.balance();
             sheet.at_least(
                 "momentum handed over, g cm/us",
