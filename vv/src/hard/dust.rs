@@ -5,9 +5,10 @@ use whipple_solver::space::output::Particle;
 use whipple_solver::space::scene::{Body, Scene};
 
 use super::measure::{largest, minus, norm};
-use super::scenes::{COPPER, DISPLACEMENT, VELOCITY, begin, block, march, scatter, scene, shift};
-use super::sheet::Sheet;
-use crate::run::RunError;
+use super::scenes::{
+    COPPER, DISPLACEMENT, VELOCITY, advance, begin, block, march, scatter, scene, shift,
+};
+use super::sheet::{Sheet, Trouble};
 
 /// Edge of a cell in cm.
 const EDGE: f64 = 0.1;
@@ -24,7 +25,7 @@ fn crumbling(sheet: &Sheet, bodies: Vec<Body>) -> Scene {
 }
 
 /// A scene whose elements have all died, torn apart by a motion that is then stopped; how many are left is entered.
-fn dust(sheet: &mut Sheet, scene: &Scene) -> Result<Simulation, RunError> {
+fn dust(sheet: &mut Sheet, scene: &Scene) -> Result<Simulation, Trouble> {
     let centre = |p: &Particle| scene.bodies[p.body].centre;
     let apart = |p: &Particle| minus(p.position, centre(p)).map(|x| TEARING * x);
     let mut torn = begin(scene, VELOCITY, apart)?;
@@ -50,7 +51,8 @@ pub(super) fn crossing(sheet: &mut Sheet) {
             let aside = shift(&scene, &still, DISPLACEMENT, aside)?;
             let towards = |p: &Particle| [if p.body == 0 { 0.5 } else { -0.5 }, 0.0, 0.0];
             let mut simulation = shift(&scene, &aside, VELOCITY, towards)?;
-            simulation.advance_to(simulation.time() + 1.5)?;
+            let end = simulation.time() + 1.5;
+            advance(&mut simulation, end)?;
             let balance = simulation.balance();
             sheet.at_most("error of the energy", balance.energy_drift(), 1e-6);
             let finite = simulation.all_particles().filter(|p| !norm(p.velocity).is_finite());
@@ -81,7 +83,8 @@ pub(super) fn crossing(sheet: &mut Sheet) {
         let still = dust(sheet, &scene)?;
         let towards = |p: &Particle| [if p.body == 0 { 0.5 } else { -0.5 }, 0.0, 0.0];
         let mut simulation = shift(&scene, &still, VELOCITY, towards)?;
-        simulation.advance_to(simulation.time() + 4.0 * half)?;
+        let end = simulation.time() + 4.0 * half;
+        advance(&mut simulation, end)?;
         sheet.at_most("error of the energy", simulation.balance().energy_drift(), 1e-6);
         sheet.at_most("error of the momentum", simulation.balance().momentum_drift(), 1e-12);
         Ok(())
@@ -109,7 +112,7 @@ pub(super) fn quiet_flight(sheet: &mut Sheet) {
         let begin = cloud.time();
         for k in 1..=10 {
             let (before, steps) = (cloud.searches(), cloud.counters().steps);
-            cloud.advance_to(begin + (end - begin) * f64::from(k) / 10.0)?;
+            advance(&mut cloud, begin + (end - begin) * f64::from(k) / 10.0)?;
             let tests = (cloud.searches().tests - before.tests) as f64;
             costs.push(tests / (cloud.counters().steps - steps) as f64);
         }

@@ -8,8 +8,7 @@ use super::measure::{largest, minus};
 use super::scenes::{
     ALUMINIUM, COPPER, DISPLACEMENT, STEEL, VELOCITY, begin, block, march, scene, shift,
 };
-use super::sheet::{Bound, Sheet};
-use crate::run::RunError;
+use super::sheet::{Bound, Sheet, Trouble};
 
 /// Edge of a cell in cm.
 const EDGE: f64 = 0.1;
@@ -91,7 +90,7 @@ pub(super) fn ramp(sheet: &mut Sheet) {
 
 /// A block of elastic copper in uniform shear, all of which fails in the next step, over so many steps of this part of
 /// their length.
-fn melting(sheet: &Sheet, steps: f64, cfl: f64) -> Result<Simulation, RunError> {
+fn melting(sheet: &Sheet, steps: f64, cfl: f64) -> Result<Simulation, Trouble> {
     let [.., c_v] = COPPER.constants;
     let still = [0.0; 3];
     let mut metal = COPPER.elastic();
@@ -109,7 +108,7 @@ fn melting(sheet: &Sheet, steps: f64, cfl: f64) -> Result<Simulation, RunError> 
 }
 
 /// Heat of damage and the largest kinetic energy, over the energy that was stored in shear.
-fn failing(sheet: &Sheet, steps: f64, cfl: f64) -> Result<[f64; 2], RunError> {
+fn failing(sheet: &Sheet, steps: f64, cfl: f64) -> Result<[f64; 2], Trouble> {
     let mut simulation = melting(sheet, steps, cfl)?;
     let stored = simulation.holdings()[0].shear;
     let mut most = 0.0f64;

@@ -8,10 +8,9 @@ use whipple_solver::space::{Simulation, lattice};
 use whipple_solver::{output::Snapshot, scene as line};
 
 use super::measure::{apart, at_pace, largest, minus, norm, pace};
-use super::scenes::{COPPER, STEEL, block, bricks, march, mirror, rod, scene};
-use super::sheet::Sheet;
+use super::scenes::{COPPER, STEEL, advance, block, bricks, march, mirror, rod, scene};
+use super::sheet::{Sheet, Trouble};
 use crate::cases::find;
-use crate::run::RunError;
 use crate::scene::AnyScene;
 
 /// Steps over which round-off alone may tell two runs apart.
@@ -64,8 +63,8 @@ pub(super) fn boosted(sheet: &mut Sheet) {
             let (still, moving) = both(&coarse(sheet), boost);
             let end = sheet.size(20.0, 4.0);
             let [mut a, mut b] = [Simulation::new(&still)?, Simulation::new(&moving)?];
-            a.advance_to(end)?;
-            b.advance_to(end)?;
+            advance(&mut a, end)?;
+            advance(&mut b, end)?;
             alike(sheet, [&a, &b]);
             Ok(())
         });
@@ -77,10 +76,10 @@ fn gas_scene(
     sheet: &Sheet,
     case: &str,
     pressures: Option<[f64; 2]>,
-) -> Result<line::Scene, RunError> {
+) -> Result<line::Scene, Trouble> {
     let found = find(case).map(|c| c.scene(sheet.preset(), "", c.default_size()));
     let Some(AnyScene::Line(mut scene)) = found else {
-        return Err(RunError::NotThere { case: case.into(), what: "along a line".into() });
+        return Err(Trouble::Other(format!("no case `{}` along a line", case)));
     };
     scene.method = sheet.line();
     if let Some([left, right]) = pressures {
@@ -113,7 +112,7 @@ fn along_a_line(
     still: &line::Scene,
     boost: f64,
     most: f64,
-) -> Result<(), RunError> {
+) -> Result<(), Trouble> {
     let mut slower = still.clone();
     slower.method.cfl *= 0.8;
     let mut first = whipple_solver::build(&slower)?;
@@ -216,8 +215,8 @@ pub(super) fn turned(sheet: &mut Sheet) {
             let other = rotated(&straight, axis, degrees);
             let end = sheet.size(20.0, 4.0);
             let [mut a, mut b] = [Simulation::new(&straight)?, Simulation::new(&other)?];
-            a.advance_to(end)?;
-            b.advance_to(end)?;
+            advance(&mut a, end)?;
+            advance(&mut b, end)?;
             alike(sheet, [&a, &b]);
             Ok(())
         });
@@ -304,7 +303,7 @@ fn symmetric(
     simulation: &mut Simulation,
     steps: usize,
     image: impl Fn([f64; 3]) -> [f64; 3],
-) -> Result<(), RunError> {
+) -> Result<(), Trouble> {
     let start: Vec<Particle> = simulation.all_particles().collect();
     let length = largest(start.iter().flat_map(|p| p.position));
     let partner = |p: &Particle| {

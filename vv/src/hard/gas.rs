@@ -8,16 +8,15 @@ use whipple_solver::units::Units;
 
 use super::measure::mean;
 use super::scenes::{VELOCITY, begin, block, gas, scene, sleeve};
-use super::sheet::{Bound, Sheet};
+use super::sheet::{Bound, Sheet, Trouble};
 use crate::cases::find;
-use crate::run::RunError;
 use crate::scene::AnyScene;
 
 /// A scene along a line of a case, with a density scheme.
-pub(super) fn of_case(sheet: &Sheet, id: &str, n: usize) -> Result<Scene, RunError> {
+pub(super) fn of_case(sheet: &Sheet, id: &str, n: usize) -> Result<Scene, Trouble> {
     let found = find(id).map(|case| case.scene(sheet.preset(), "", n));
     let Some(AnyScene::Line(mut scene)) = found else {
-        return Err(RunError::NotThere { case: id.into(), what: "along a line".into() });
+        return Err(Trouble::Other(format!("no case `{}` along a line", id)));
     };
     scene.method = sheet.line();
     Ok(scene)
@@ -83,7 +82,7 @@ pub(super) fn near_vacuum(sheet: &mut Sheet) {
 }
 
 /// Noh's problem along a line at a Mach number: the density behind the shock, its speed and the energy.
-pub(super) fn noh_of_mach(sheet: &mut Sheet, mach: f64) -> Result<(), RunError> {
+pub(super) fn noh_of_mach(sheet: &mut Sheet, mach: f64) -> Result<(), Trouble> {
     let n = 200;
     let mut scene = of_case(sheet, "noh", n)?;
     let gamma = 5.0 / 3.0;

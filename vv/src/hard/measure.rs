@@ -2,8 +2,7 @@
 
 use whipple_solver::space::Simulation;
 
-use super::sheet::Sheet;
-use crate::run::RunError;
+use super::sheet::{Sheet, Trouble};
 
 /// Largest size of some numbers; what is no number is larger than any.
 pub(super) fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
@@ -47,7 +46,7 @@ pub(super) fn energy(sheet: &mut Sheet, simulation: &Simulation) {
 pub(super) fn pace(
     scene: &whipple_solver::space::Scene,
     steps: usize,
-) -> Result<Vec<f64>, RunError> {
+) -> Result<Vec<f64>, Trouble> {
     let mut slower = scene.clone();
     slower.method.cfl *= 0.8;
     let mut simulation = Simulation::new(&slower)?;
@@ -60,7 +59,7 @@ pub(super) fn pace(
 }
 
 /// Steps to each of some times in turn.
-pub(super) fn at_pace(simulation: &mut Simulation, times: &[f64]) -> Result<(), RunError> {
+pub(super) fn at_pace(simulation: &mut Simulation, times: &[f64]) -> Result<(), Trouble> {
     for &time in times {
         simulation.advance_to(time)?;
     }

@@ -6,10 +6,10 @@ use whipple_solver::space::scene::Scene;
 
 use super::measure::{largest, mean};
 use super::scenes::{COPPER, DISPLACEMENT, HEAT, Metal, STEEL, VELOCITY, begin, block, scene};
-use super::sheet::Sheet;
+use super::sheet::{Sheet, Trouble};
 use crate::cases::find;
 use crate::record::{Outcome, RunKey, Scheme};
-use crate::run::{Request, RunError, Silent, run};
+use crate::run::{Request, Silent, run};
 
 /// Edge of a cell in cm.
 const EDGE: f64 = 0.1;
@@ -88,7 +88,7 @@ fn decays(
     simulation: &mut Simulation,
     metal: &Metal,
     energy: impl Fn(&Simulation) -> f64,
-) -> Result<(), RunError> {
+) -> Result<(), Trouble> {
     let first = energy(simulation);
     let end = 20.0 * EDGE / metal.sound();
     let (mut most, mut last) = (0.0f64, 0.0f64);
@@ -135,7 +135,7 @@ pub(super) fn hourglass(sheet: &mut Sheet) {
     sheet.part("free beam in bending, 4 cells through the height", |sheet| {
         let found = find("beam").map(|case| (case, case.scene(sheet.preset(), "", 4)));
         let Some((case, mut scene)) = found else {
-            return Err(RunError::NotThere { case: "beam".into(), what: "in space".into() });
+            return Err(Trouble::Other(format!("no case `{}` in space", "beam")));
         };
         let scheme = sheet.scheme();
         if let Scheme::Particles { density, .. } = scheme {
@@ -149,7 +149,7 @@ pub(super) fn hourglass(sheet: &mut Sheet) {
         };
         let record = run(case, request, &Silent)?.record;
         if let Outcome::Failed { message, .. } = record.outcome {
-            return Err(RunError::Reference(message));
+            return Err(Trouble::Other(message));
         }
         let error = record.norms.get("frequency_error").copied().unwrap_or(f64::NAN);
         sheet.at_most("error of the bending frequency", error.abs(), 0.05);
@@ -159,7 +159,7 @@ pub(super) fn hourglass(sheet: &mut Sheet) {
 
 /// Largest amplitude of a pattern in a run over that at the start, and the largest energy of the control over the
 /// internal energy and that of strain.
-fn pattern(scene: &Scene, [mode, axis]: [usize; 2], steps: usize) -> Result<[f64; 2], RunError> {
+fn pattern(scene: &Scene, [mode, axis]: [usize; 2], steps: usize) -> Result<[f64; 2], Trouble> {
     let place = |p: &Particle| {
         p.position.map(|x| (x / EDGE + 0.5 * CELLS[0] as f64).round().max(0.0) as usize)
     };

@@ -7,8 +7,7 @@ use whipple_solver::space::{Simulation, restart::Section};
 
 use super::measure::{apart, at_pace, largest, pace};
 use super::scenes::{march, rod};
-use super::sheet::Sheet;
-use crate::run::RunError;
+use super::sheet::{Sheet, Trouble};
 use crate::space::checkpoint::{load, save};
 use crate::space::measured::Measured;
 
@@ -20,10 +19,10 @@ fn impact(sheet: &Sheet) -> Scene {
 /// Runs with so many threads.
 fn with_threads<T: Send>(
     threads: usize,
-    work: impl FnOnce() -> Result<T, RunError> + Send,
-) -> Result<T, RunError> {
+    work: impl FnOnce() -> Result<T, Trouble> + Send,
+) -> Result<T, Trouble> {
     let pool = ThreadPoolBuilder::new().num_threads(threads).build();
-    let pool = pool.map_err(|error| RunError::Reference(error.to_string()))?;
+    let pool = pool.map_err(|error| Trouble::Other(error.to_string()))?;
     pool.install(work)
 }
 
@@ -32,7 +31,7 @@ pub(super) fn threads(sheet: &mut Sheet) {
     let steps = sheet.size(1000, 200);
     sheet.part(format!("rod impact, {steps} steps"), |sheet| {
         let scene = impact(sheet);
-        let run = |threads: usize| -> Result<Vec<Section>, RunError> {
+        let run = |threads: usize| -> Result<Vec<Section>, Trouble> {
             with_threads(threads, || {
                 let mut simulation = Simulation::new(&scene)?;
                 march(&mut simulation, steps)?;
@@ -98,12 +97,8 @@ pub(super) fn restart(sheet: &mut Sheet) {
         let scene = impact(sheet);
         let mut whole = Simulation::new(&scene)?;
         march(&mut whole, first)?;
-        let folder = tempfile::tempdir().map_err(|error| RunError::Reference(error.to_string()))?;
-        let unwritten = |error: crate::checkpoint::CheckpointError| {
-            RunError::Resume(crate::space::checkpoint::ResumeError::from(error))
-        };
-        let path =
-            save(folder.path(), (&scene, ""), &whole, &Measured::default()).map_err(unwritten)?;
+        let folder = tempfile::tempdir().map_err(|error| Trouble::Other(error.to_string()))?;
+        let path = save(folder.path(), (&scene, ""), &whole, &Measured::default())?;
         let mut again = load(&path, &scene)?.simulation;
         march(&mut whole, more)?;
         march(&mut again, more)?;

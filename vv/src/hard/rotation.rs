@@ -8,9 +8,8 @@ use whipple_solver::space::spin::Rigid;
 use whipple_solver::space::{Simulation, lattice};
 
 use super::measure::{largest, minus};
-use super::scenes::{DISPLACEMENT, STEEL, begin, bricks, march, scene};
-use super::sheet::{Bound, Sheet};
-use crate::run::RunError;
+use super::scenes::{DISPLACEMENT, STEEL, advance, begin, bricks, march, scene};
+use super::sheet::{Bound, Sheet, Trouble};
 
 /// H16: elements turned as far as they may be, and a beam that spins.
 pub(super) fn large(sheet: &mut Sheet) {
@@ -34,7 +33,7 @@ pub(super) fn large(sheet: &mut Sheet) {
             let mut scene = scene(sheet.space(), vec![STEEL.elastic()], vec![body]);
             scene.stop_time = turns * TAU / spin;
             let mut simulation = Simulation::new(&scene)?;
-            simulation.advance_to(scene.stop_time)?;
+            advance(&mut simulation, scene.stop_time)?;
             let balance = simulation.balance();
             sheet.at_most("error of the angular momentum", balance.angular_drift(), 1e-10);
             let change = balance.now.energy() / balance.initial.energy() - 1.0;
@@ -54,7 +53,7 @@ pub(super) fn large(sheet: &mut Sheet) {
 }
 
 /// Largest stress or pressure of a block whose particles are moved as a whole by a rotation, after a step.
-fn turned(sheet: &Sheet, angle: f64) -> Result<f64, RunError> {
+fn turned(sheet: &Sheet, angle: f64) -> Result<f64, Trouble> {
     let body = bricks("steel", [3, 3, 3], [0.1; 3]);
     let scene = scene(sheet.space(), vec![STEEL.elastic()], vec![body]);
     let axes = lattice::rotation([0.3, -0.5, 0.8], angle);

@@ -9,10 +9,10 @@ use whipple_solver::space::scene::{
 use whipple_solver::space::{Simulation, output::Particle};
 use whipple_solver::units::Units;
 
+use super::sheet::Trouble;
 use crate::exact::InputError;
 use crate::exact::gruneisen::MieGruneisen;
 use crate::exact::hugoniot::Hugoniot;
-use crate::run::RunError;
 
 /// A metal, with the constants of `references/materials.toml`: density, `c0`, `s`, Grueneisen's constant,
 /// `c_v`.
@@ -173,9 +173,32 @@ pub(super) fn rod(method: Method, n: usize, long: usize, plate: [usize; 3]) -> S
 }
 
 /// The scene after some steps of its own length.
-pub(super) fn march(simulation: &mut Simulation, steps: usize) -> Result<(), RunError> {
+pub(super) fn march(simulation: &mut Simulation, steps: usize) -> Result<(), Trouble> {
     for _ in 0..steps {
         simulation.step(f64::INFINITY)?;
+    }
+    Ok(())
+}
+
+/// Most steps on the way to a time: a run whose steps get so short is given up.
+const MOST_STEPS: u64 = 100_000;
+
+/// Steps until a time.
+///
+/// # Errors
+/// A numerical failure, or too many steps, with the step and who decides it.
+pub(super) fn advance(simulation: &mut Simulation, time: f64) -> Result<(), Trouble> {
+    let first = simulation.counters().steps;
+    while simulation.time() < time {
+        simulation.step(time)?;
+        if simulation.counters().steps - first > MOST_STEPS {
+            let voter = simulation.votes().last.map_or("nothing", |voter| voter.name());
+            return Err(Trouble::Other(format!(
+                "given up after {MOST_STEPS} steps at t = {:.4e} of {time:.4e}: the step is {:.2e}, decided by {voter}",
+                simulation.time(),
+                simulation.last_step()
+            )));
+        }
     }
     Ok(())
 }
@@ -188,7 +211,7 @@ pub(super) fn begin(
     scene: &Scene,
     names: [&str; 3],
     change: impl Fn(&Particle) -> [f64; 3],
-) -> Result<Simulation, RunError> {
+) -> Result<Simulation, Trouble> {
     shift(scene, &Simulation::new(scene)?, names, change)
 }
 
@@ -202,7 +225,7 @@ pub(super) fn shift(
     simulation: &Simulation,
     names: [&str; 3],
     change: impl Fn(&Particle) -> [f64; 3],
-) -> Result<Simulation, RunError> {
+) -> Result<Simulation, Trouble> {
     let added: Vec<(usize, [f64; 3])> =
         simulation.all_particles().map(|p| (p.id as usize, change(&p))).collect();
     let mut sections = simulation.sections();

@@ -1,11 +1,45 @@
 //! What a hard case measures: numbers with their bounds, and failures where there is no number.
 
 use serde::{Deserialize, Serialize};
+use whipple_solver::error::{SceneError, StepError};
 use whipple_solver::method::{Density, Method, Preset};
 use whipple_solver::space::method::Method as SpaceMethod;
+use whipple_solver::space::restart::RestartError;
 
+use crate::checkpoint::CheckpointError;
+use crate::exact::InputError;
 use crate::record::Scheme;
 use crate::run::RunError;
+use crate::space::checkpoint::ResumeError;
+
+/// Why a part of a case has no number.
+#[derive(Debug, thiserror::Error)]
+pub(super) enum Trouble {
+    /// A scene that is refused.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// A numerical failure.
+    #[error(transparent)]
+    Step(#[from] StepError),
+    /// A state that is refused.
+    #[error(transparent)]
+    State(#[from] RestartError),
+    /// A checkpoint that cannot be written.
+    #[error(transparent)]
+    Checkpoint(#[from] CheckpointError),
+    /// A checkpoint that cannot be read.
+    #[error(transparent)]
+    Resume(#[from] ResumeError),
+    /// An exact solution that cannot be evaluated.
+    #[error(transparent)]
+    Input(#[from] InputError),
+    /// A case of the harness that does not run.
+    #[error(transparent)]
+    Run(#[from] RunError),
+    /// Anything else, such as a run that is given up.
+    #[error("{0}")]
+    Other(String),
+}
 
 /// How large a case is run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -124,7 +158,7 @@ impl Sheet {
     pub(super) fn part(
         &mut self,
         name: impl Into<String>,
-        measure: impl FnOnce(&mut Self) -> Result<(), RunError>,
+        measure: impl FnOnce(&mut Self) -> Result<(), Trouble>,
     ) {
         self.part = name.into();
         if let Err(error) = measure(self) {
@@ -182,7 +216,7 @@ mod tests {
     fn a_failed_part_is_a_failed_reading_and_the_next_goes_on() {
         let scheme = Scheme::preset(Preset::Default);
         let mut sheet = Sheet::new(scheme, Extent::Quick).expect("particles");
-        sheet.part("first", |_| Err(RunError::Reference("nothing there".into())));
+        sheet.part("first", |_| Err(Trouble::Other("nothing there".into())));
         sheet.part("second", |sheet| {
             sheet.at_most("error", 0.5, 1.0);
             Ok(())

@@ -6,10 +6,10 @@ use whipple_solver::space::scene::{Body, Hold, Scene, Shape, Side, Wall};
 
 use super::measure::{Planes, energy, front, largest, mean, minus, norm};
 use super::scenes::{
-    ALUMINIUM, COPPER, Metal, STEEL, TUNGSTEN, VELOCITY, begin, block, body, bricks, scene, sleeve,
+    ALUMINIUM, COPPER, Metal, STEEL, TUNGSTEN, VELOCITY, advance, begin, block, body, bricks,
+    scene, sleeve,
 };
-use super::sheet::{Bound, Sheet};
-use crate::run::RunError;
+use super::sheet::{Bound, Sheet, Trouble};
 
 /// Edge of a cell in cm.
 const EDGE: f64 = 0.1;
@@ -43,12 +43,12 @@ fn shock(
     exact: [f64; 2],
     length: f64,
     half: f64,
-) -> Result<f64, RunError> {
+) -> Result<f64, Trouble> {
     let [speed, pressure] = exact;
     let planes = Planes::new(simulation, 0, half);
     let mut places = Vec::new();
     for part in [0.4, 0.75] {
-        simulation.advance_to(part * length / speed)?;
+        advance(simulation, part * length / speed)?;
         let curve = planes.means(simulation, |p| p.pressure);
         places.push((simulation.time(), front(&curve, 0.5 * pressure)));
     }
@@ -81,7 +81,7 @@ pub(super) fn fast(sheet: &mut Sheet) {
             let mut scene = scene(sheet.space(), vec![metal], vec![sphere, plate]);
             scene.stop_time = 3.0 / v;
             let mut simulation = Simulation::new(&scene)?;
-            simulation.advance_to(scene.stop_time)?;
+            advance(&mut simulation, scene.stop_time)?;
             let counters = simulation.counters();
             sheet.at_most("particles and steps at a floor", counters.floored as f64, 0.0);
             energy(sheet, &simulation);
@@ -92,7 +92,7 @@ pub(super) fn fast(sheet: &mut Sheet) {
 }
 
 /// A column of aluminium against a wall, whose elements die at this part of their volume.
-fn planar(sheet: &mut Sheet, up: f64, compression: f64) -> Result<(), RunError> {
+fn planar(sheet: &mut Sheet, up: f64, compression: f64) -> Result<(), Trouble> {
     let exact = ALUMINIUM.hugoniot()?.at_particle_speed(up)?;
     let cells = sheet.size(80, 40);
     let mut scene = column(sheet, &ALUMINIUM, ([cells, 3, 3], [EDGE; 3]), up);
@@ -134,7 +134,7 @@ pub(super) fn released(sheet: &mut Sheet) {
             let mut densities = Vec::new();
             for k in 0..=LOOKS {
                 let part = f64::from(k) / f64::from(LOOKS);
-                simulation.advance_to((4.0 + 8.0 * part) * crossing)?;
+                advance(&mut simulation, (4.0 + 8.0 * part) * crossing)?;
                 let all = planes.means(&simulation, |p| p.rho / metal.density());
                 densities.extend(all[MARGIN..all.len() - MARGIN].iter().map(|p| p.1));
             }
@@ -218,7 +218,7 @@ pub(super) fn flat_cells(sheet: &mut Sheet) {
             Body { centre: [0.72, -0.13, 0.02], ..bricks("steel", [4, 2, 4], [0.05, 0.5, 0.05]) };
         let metals = vec![TUNGSTEN.elastic(), STEEL.elastic()];
         let mut simulation = Simulation::new(&scene(sheet.space(), metals, vec![fast, slow]))?;
-        simulation.advance_to(6.0)?;
+        advance(&mut simulation, 6.0)?;
         let balance = simulation.balance();
         sheet.at_least("momentum handed over, g cm/us", simulation.holdings()[1].momentum[0], 1e-4);
         sheet.at_most("error of the angular momentum", balance.angular_drift(), 1e-10);

@@ -10,10 +10,9 @@ use whipple_solver::units::Units;
 
 use super::measure::{largest, mean, minus, norm};
 use super::scenes::{
-    COPPER, DISPLACEMENT, STEEL, VELOCITY, begin, block, scatter, scene, shift, sleeve,
+    COPPER, DISPLACEMENT, STEEL, VELOCITY, advance, begin, block, scatter, scene, shift, sleeve,
 };
-use super::sheet::Sheet;
-use crate::run::RunError;
+use super::sheet::{Sheet, Trouble};
 
 /// Edge of a cell in cm.
 const EDGE: f64 = 0.1;
@@ -38,7 +37,7 @@ pub(super) fn pulled(sheet: &mut Sheet) {
         let runs = transits * length / COPPER.sound();
         scene.stop_time = runs;
         let pull = |p: &Particle| [rate * p.position[0], 0.0, 0.0];
-        let start = |perturbed: f64| -> Result<Simulation, RunError> {
+        let start = |perturbed: f64| -> Result<Simulation, Trouble> {
             let bent = begin(&scene, DISPLACEMENT, |p| {
                 std::array::from_fn(|d| {
                     // What lies on a mirror stays on it.
@@ -60,8 +59,8 @@ pub(super) fn pulled(sheet: &mut Sheet) {
             .collect();
         let strain_times = [0.5, 1.0];
         for part in strain_times {
-            plain.advance_to(part * runs)?;
-            other.advance_to(part * runs)?;
+            advance(&mut plain, part * runs)?;
+            advance(&mut other, part * runs)?;
             let apart = middle
                 .iter()
                 .map(|&id| norm(minus(plain.particle(id).position, other.particle(id).position)));
@@ -114,7 +113,7 @@ pub(super) fn unequal_sizes(sheet: &mut Sheet) {
             let metals = vec![STEEL.fluid(), COPPER.fluid()];
             let scene = scene(sheet.space(), metals, vec![small, large]);
             let mut simulation = Simulation::new(&scene)?;
-            simulation.advance_to(4.0)?;
+            advance(&mut simulation, 4.0)?;
             let balance = simulation.balance();
             sheet.at_least(
                 "momentum handed over, g cm/us",
@@ -143,7 +142,7 @@ const WAVE: f64 = 1e-3;
 
 /// A wave of the shape of a cosine, 40 fine spacings long, runs into a coarser joined lattice: the largest wave that
 /// comes back, over it.
-fn reflected(sheet: &Sheet, ratio: usize) -> Result<f64, RunError> {
+fn reflected(sheet: &Sheet, ratio: usize) -> Result<f64, Trouble> {
     let gamma: f64 = 1.4;
     let energy = 1.0 / (gamma * (gamma - 1.0));
     let per_length = 40;
