@@ -7,7 +7,7 @@ use whipple_solver::space::scene::Body;
 use whipple_solver::units::Units;
 
 use super::measure::mean;
-use super::scenes::{VELOCITY, begin, block, gas, scene, sleeve};
+use super::scenes::{VELOCITY, advance, begin, block, gas, scene, sleeve};
 use super::sheet::{Bound, Sheet, Trouble};
 use crate::cases::find;
 use crate::scene::AnyScene;
@@ -48,37 +48,49 @@ pub(super) fn near_vacuum(sheet: &mut Sheet) {
     }
     for factor in [2.0, 10.0] {
         sheet.part(format!("halves of a column part at {factor} c, in space"), |sheet| {
-            let cells = sheet.size(40, 20);
-            let energy = 1.0;
-            let sound = (1.4f64 * 0.4 * energy).sqrt();
-            let body = Body { energy, ..block("gas", [cells, 3, 3], 0.1) };
-            let mut scene = scene(sheet.space(), vec![gas(1.4)], vec![body]);
-            scene.units = Units::None;
-            scene.walls = sleeve([0.3; 2]);
-            let mut simulation = begin(&scene, VELOCITY, |p| {
-                let side = if p.position[0].abs() < 1e-9 { 0.0 } else { p.position[0].signum() };
-                [factor * sound * side, 0.0, 0.0]
-            })?;
-            let (mut rho, mut u, mut first) = (f64::INFINITY, f64::INFINITY, f64::NAN);
-            while simulation.time() < 0.5 {
-                simulation.step(0.5)?;
-                rho = simulation.all_particles().map(|p| p.rho).fold(rho, f64::min);
-                u = simulation.all_particles().map(|p| p.u).fold(u, f64::min);
-                if u < 0.0 && first.is_nan() {
-                    first = simulation.counters().steps as f64;
-                }
-            }
+            let [rho, u, first, along] = parting(sheet, factor, 0.0)?;
             sheet.at_least("smallest density", rho, f64::MIN_POSITIVE);
             sheet.at_least("smallest internal energy", u, 0.0);
-            if first.is_finite() {
-                sheet.shown("step of the first negative energy", first);
-            }
-            let now = simulation.balance().now;
-            let along = now.momentum[0].abs() / now.momentum_scale;
+            sheet.shown("steps until an energy is negative, 0 for never", first);
             sheet.at_most("momentum over the sum of its sizes", along, 1e-12);
             Ok(())
         });
     }
+    // What a first step that knows no rates does to it.
+    sheet.part("the same at 10 c after a step of 1e-6 units", |sheet| {
+        let [rho, u, ..] = parting(sheet, 10.0, 1e-6)?;
+        sheet.shown("smallest density", rho);
+        sheet.shown("smallest internal energy", u);
+        Ok(())
+    });
+}
+
+/// Two halves of a column of gas that part, after a first step of this length if it is not zero: smallest density and
+/// energy, the step of the first negative energy, and the momentum over the sum of its sizes.
+fn parting(sheet: &Sheet, factor: f64, before: f64) -> Result<[f64; 4], Trouble> {
+    let cells = sheet.size(40, 20);
+    let energy = 1.0;
+    let sound = (1.4f64 * 0.4 * energy).sqrt();
+    let body = Body { energy, ..block("gas", [cells, 3, 3], 0.1) };
+    let mut scene = scene(sheet.space(), vec![gas(1.4)], vec![body]);
+    scene.units = Units::None;
+    scene.walls = sleeve([0.3; 2]);
+    let mut simulation = begin(&scene, VELOCITY, |p| {
+        let side = if p.position[0].abs() < 1e-9 { 0.0 } else { p.position[0].signum() };
+        [factor * sound * side, 0.0, 0.0]
+    })?;
+    advance(&mut simulation, before)?;
+    let (mut rho, mut u, mut first) = (f64::INFINITY, f64::INFINITY, 0.0);
+    while simulation.time() < 0.5 {
+        simulation.step(0.5)?;
+        rho = simulation.all_particles().map(|p| p.rho).fold(rho, f64::min);
+        u = simulation.all_particles().map(|p| p.u).fold(u, f64::min);
+        if u < 0.0 && first == 0.0 {
+            first = simulation.counters().steps as f64;
+        }
+    }
+    let now = simulation.balance().now;
+    Ok([rho, u, first, now.momentum[0].abs() / now.momentum_scale])
 }
 
 /// Noh's problem along a line at a Mach number: the density behind the shock, its speed and the energy.

@@ -180,7 +180,7 @@ pub(super) fn march(simulation: &mut Simulation, steps: usize) -> Result<(), Tro
     Ok(())
 }
 
-/// Most steps on the way to a time: a run whose steps get so short is given up.
+/// Most steps of a run: one whose steps get so short is given up.
 const MOST_STEPS: u64 = 100_000;
 
 /// Steps until a time.
@@ -188,10 +188,9 @@ const MOST_STEPS: u64 = 100_000;
 /// # Errors
 /// A numerical failure, or too many steps, with the step and who decides it.
 pub(super) fn advance(simulation: &mut Simulation, time: f64) -> Result<(), Trouble> {
-    let first = simulation.counters().steps;
     while simulation.time() < time {
         simulation.step(time)?;
-        if simulation.counters().steps - first > MOST_STEPS {
+        if simulation.counters().steps > MOST_STEPS {
             let voter = simulation.votes().last.map_or("nothing", |voter| voter.name());
             return Err(Trouble::Other(format!(
                 "given up after {MOST_STEPS} steps at t = {:.4e} of {time:.4e}: the step is {:.2e}, decided by {voter}",

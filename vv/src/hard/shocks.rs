@@ -13,6 +13,8 @@ use super::sheet::{Bound, Sheet, Trouble};
 
 /// Edge of a cell in cm.
 const EDGE: f64 = 0.1;
+/// A first step so short that nothing moves in it, in us.
+const SHORT: f64 = 1e-6;
 /// Planes of particles left out at either end of a released block: six cells.
 const MARGIN: usize = 12;
 /// Times over which its density is averaged.
@@ -59,12 +61,13 @@ fn shock(
 /// H12: planar impact and a sphere on a plate at 20 and 50 km/s.
 pub(super) fn fast(sheet: &mut Sheet) {
     for speed in [20.0, 50.0] {
-        for compression in [0.3, 0.0] {
-            let dying = if compression > 0.0 { "" } else { ", cells that no compression kills" };
-            sheet.part(format!("Al on Al at {speed} km/s, planar{dying}"), |sheet| {
-                planar(sheet, 0.05 * speed, compression)
-            });
-        }
+        sheet.part(format!("Al on Al at {speed} km/s, planar"), |sheet| {
+            planar(sheet, 0.05 * speed, None)
+        });
+        // What a first step that knows no rates does to it.
+        sheet.part(format!("the same after a step of {SHORT:e} us"), |sheet| {
+            planar(sheet, 0.05 * speed, Some(SHORT))
+        });
         sheet.part(format!("Al sphere on Al plate at {speed} km/s"), |sheet| {
             let n = sheet.size(8, 4);
             let edge = 1.0 / n as f64;
@@ -91,20 +94,27 @@ pub(super) fn fast(sheet: &mut Sheet) {
     sheet.part("Noh along a line at Mach 1e6", |sheet| super::gas::noh_of_mach(sheet, 1e6));
 }
 
-/// A column of aluminium against a wall, whose elements die at this part of their volume.
-fn planar(sheet: &mut Sheet, up: f64, compression: f64) -> Result<(), Trouble> {
+/// A column of aluminium against a wall. After a first step of its own choice its numbers have to hold, after a given one
+/// they are shown.
+fn planar(sheet: &mut Sheet, up: f64, first: Option<f64>) -> Result<(), Trouble> {
     let exact = ALUMINIUM.hugoniot()?.at_particle_speed(up)?;
     let cells = sheet.size(80, 40);
-    let mut scene = column(sheet, &ALUMINIUM, ([cells, 3, 3], [EDGE; 3]), up);
-    scene.materials[0].failure.compression = compression;
+    let scene = column(sheet, &ALUMINIUM, ([cells, 3, 3], [EDGE; 3]), up);
     let mut simulation = Simulation::new(&scene)?;
+    advance(&mut simulation, first.unwrap_or(0.0))?;
     let length = cells as f64 * EDGE;
     let found = shock(&mut simulation, [exact.shock_speed, exact.pressure], length, 0.5 * EDGE)?;
+    let error = (found / exact.shock_speed - 1.0).abs();
     let floored = simulation.counters().floored as f64;
     sheet.shown("elements that have died", simulation.failed().1 as f64);
-    sheet.at_most("error of the shock speed", (found / exact.shock_speed - 1.0).abs(), 0.03);
-    sheet.at_most("particles and steps at a floor", floored, 0.0);
-    energy(sheet, &simulation);
+    if first.is_some() {
+        sheet.shown("error of the shock speed", error);
+        sheet.shown("particles and steps at a floor", floored);
+    } else {
+        sheet.at_most("error of the shock speed", error, 0.03);
+        sheet.at_most("particles and steps at a floor", floored, 0.0);
+        energy(sheet, &simulation);
+    }
     Ok(())
 }
 
