@@ -18,6 +18,8 @@ mod scenes;
 mod sheet;
 mod shocks;
 mod stated;
+#[cfg(test)]
+mod tests;
 mod waves;
 
 pub use record::{HardError, HardRecord, HardRecords, folder};
@@ -103,6 +105,29 @@ pub const SCHEMES: [Scheme; 4] = [
     Scheme::Particles { preset: Preset::Paper, density: Density::Nonholonomic },
 ];
 
+/// Why a scheme fails a case, where runs or a decision have told.
+#[must_use]
+pub fn reason(id: &str, scheme: Scheme) -> Option<&'static str> {
+    let paper = matches!(scheme, Scheme::Particles { preset: Preset::Paper, .. });
+    match id {
+        "H01" if paper => Some("heating as printed (60) depends on the frame (decision 0005)"),
+        "H12" if scheme == SCHEMES[0] => Some(
+            "the first step knows no rates of volumes and is too long: after one of 1e-6 us the column at 20 km/s holds; \
+             that at 50 km/s does not",
+        ),
+        "H13" if !paper => Some(
+            "the first step knows no rates of volumes and is too long: after one of 1e-6 no energy is negative",
+        ),
+        "H24" => {
+            Some("the longer the ramp, the more of the stored energy sets the block moving instead")
+        }
+        "H30" if paper => {
+            Some("a single pass keeps energy as far as its steps are short (decision 0007)")
+        }
+        _ => None,
+    }
+}
+
 impl HardCase {
     /// Runs it with a scheme; nothing where it is not run.
     #[must_use]
@@ -120,20 +145,4 @@ pub fn holds(records: &HardRecords, stated: &[Stated]) -> bool {
     let required = |id: &str| stated.iter().any(|s| s.id == id && s.severity == Severity::Must);
     let own = records.iter().filter(|r| r.scheme == SCHEMES[0] && required(&r.id));
     own.into_iter().all(HardRecord::passes)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn every_case_of_the_list_is_run_or_has_its_reason() {
-        let listed: Vec<String> = stated().iter().map(|s| s.id.clone()).collect();
-        assert_eq!(listed, ALL.map(|case| case.id));
-        let reasoned = |case: &HardCase| match case.answer {
-            Answer::Run(_) => true,
-            Answer::Not(reason) => reason.len() > 20,
-        };
-        assert!(ALL.iter().all(reasoned));
-    }
 }

@@ -1,7 +1,7 @@
 //! The hard cases in the report: what they are, which number decides, and what happened.
 
 use crate::hard::{
-    ALL, Answer, Bound, Extent, HardRecord, HardRecords, Reading, SCHEMES, Severity, Stated,
+    ALL, Answer, Bound, Extent, HardRecord, HardRecords, Reading, SCHEMES, Severity, Stated, reason,
 };
 use crate::report::{Block, Cell, Column, Section, Status, Table, Tally};
 
@@ -172,7 +172,9 @@ fn happened(record: &HardRecord) -> String {
         None => format!("{}: {}", reading.part, reading.what),
     };
     let told: Vec<String> = failed.iter().take(TOLD).map(tell).collect();
-    format!("{} of {all} fail: {}", failed.len(), told.join("; "))
+    let why =
+        reason(&record.id, record.scheme).map_or(String::new(), |why| format!(". Why: {why}"));
+    format!("{} of {all} fail: {}{why}", failed.len(), told.join("; "))
 }
 
 /// A text without the signs that a report gives a meaning.

@@ -5,9 +5,7 @@ use whipple_solver::space::output::Particle;
 use whipple_solver::space::scene::{Body, Scene};
 
 use super::measure::{largest, minus, norm};
-use super::scenes::{
-    COPPER, DISPLACEMENT, VELOCITY, advance, begin, block, march, scatter, scene, shift,
-};
+use super::scenes::{COPPER, DISPLACEMENT, VELOCITY, advance, block, march, scatter, scene, shift};
 use super::sheet::{Sheet, Trouble};
 
 /// Edge of a cell in cm.
@@ -28,7 +26,10 @@ fn crumbling(sheet: &Sheet, bodies: Vec<Body>) -> Scene {
 fn dust(sheet: &mut Sheet, scene: &Scene) -> Result<Simulation, Trouble> {
     let centre = |p: &Particle| scene.bodies[p.body].centre;
     let apart = |p: &Particle| minus(p.position, centre(p)).map(|x| TEARING * x);
-    let mut torn = begin(scene, VELOCITY, apart)?;
+    let mut hot = Simulation::new(scene)?;
+    march(&mut hot, 40)?;
+    // By now they have no strength; they die of their volume.
+    let mut torn = shift(scene, &hot, VELOCITY, apart)?;
     march(&mut torn, 60)?;
     let simulation = shift(scene, &torn, VELOCITY, |p| p.velocity.map(|v| -v))?;
     let alive = simulation.elements() - simulation.failed().1;
