@@ -10,7 +10,7 @@ use whipple_solver::space::method::Method;
 use whipple_solver::space::scene::{Body, EosData as SpaceEos, Failure, Material, Scene, Shape};
 use whipple_solver::units::Units;
 
-use super::measure::{Planes, energy, largest, mean, minus};
+use super::measure::{Planes, largest, mean, minus};
 use super::scenes::{
     ALUMINIUM, COPPER, Metal, STEEL, TUNGSTEN, advance, block, body, scene, sleeve,
 };
@@ -355,7 +355,7 @@ pub(super) fn fragments(sheet: &mut Sheet) {
         sheet.at_least("elements that have died", simulation.failed().1 as f64, 10.0);
         sheet.at_most("change of the mass", balance.mass_error(), 1e-15);
         sheet.at_most("error of the momentum", balance.momentum_drift(), 1e-12);
-        energy(sheet, &simulation);
+        sheet.shown("residual of the elements", balance.relative_residual());
         Ok(())
     });
 }
