@@ -52,13 +52,18 @@ pub(super) fn crossing(sheet: &mut Sheet) {
             let aside = shift(&scene, &still, DISPLACEMENT, aside)?;
             let towards = |p: &Particle| [if p.body == 0 { 0.5 } else { -0.5 }, 0.0, 0.0];
             let mut simulation = shift(&scene, &aside, VELOCITY, towards)?;
+            let before = simulation.holdings()[0].momentum;
             let end = simulation.time() + 1.5;
             advance(&mut simulation, end)?;
             let balance = simulation.balance();
             sheet.at_most("error of the energy", balance.energy_drift(), 1e-6);
             let finite = simulation.all_particles().filter(|p| !norm(p.velocity).is_finite());
             sheet.at_most("velocities that are no numbers", finite.count() as f64, 0.0);
-            let [x, y, z] = simulation.holdings()[0].momentum;
+            let after = simulation.holdings()[0].momentum;
+            // Without this they have passed each other unseen.
+            let handed = norm(minus(after, before)) / norm(before);
+            sheet.at_least("momentum handed over, over that before", handed, 1e-3);
+            let [x, y, z] = after;
             angles.push(y.hypot(z).atan2(x.abs()));
             Ok(())
         });
