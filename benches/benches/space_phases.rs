@@ -31,8 +31,8 @@ fn time_in(wanted: Option<Phase>, from: &Simulation, steps: u64) -> Duration {
 }
 
 fn phases(c: &mut Criterion) {
-    for (name, scheme) in rods() {
-        let simulation = rod(scheme);
+    for (name, scheme, particles) in rods() {
+        let simulation = rod(scheme, particles);
         let mut group = c.benchmark_group(format!("long rod, {name}"));
         group.throughput(Throughput::Elements(simulation.moving() as u64));
         group.sample_size(10);

@@ -3,6 +3,7 @@
 use whipple_solver::Solver;
 use whipple_solver::method::{Density, Integrator, Preset};
 use whipple_solver::space::Simulation;
+use whipple_solver::space::method::Particles;
 use whipple_vv::cases::find;
 use whipple_vv::cost::{Contender, EQUAL_LIST, scene};
 use whipple_vv::record::{RunKey, Scheme};
@@ -40,15 +41,19 @@ pub fn solver(contender: Contender, integrator: Integrator) -> Box<dyn Solver> {
 const CELLS: usize = 5;
 const STEPS: u64 = 300;
 
-/// The schemes of the long rod, with their names: with elements that carry the pressure, the paper's,
-/// and the kernel that it removes.
+/// The schemes of the long rod, with their names and particles: with elements that carry the pressure, the paper's,
+/// and the kernel that it removes; and the same of ellipsoids.
 #[must_use]
-pub fn rods() -> [(&'static str, Scheme); 3] {
+pub fn rods() -> [(&'static str, Scheme, Particles); 6] {
     let kernel = Scheme::Particles { preset: Preset::Paper, density: Density::Kernel };
+    let [default, paper] = [Preset::Default, Preset::Paper].map(Scheme::preset);
     [
-        ("default", Scheme::preset(Preset::Default)),
-        ("paper", Scheme::preset(Preset::Paper)),
-        ("paper, kernel", kernel),
+        ("default", default, Particles::Fitting),
+        ("paper", paper, Particles::Fitting),
+        ("paper, kernel", kernel, Particles::Fitting),
+        ("default, ellipsoids", default, Particles::Ellipsoids),
+        ("paper, ellipsoids", paper, Particles::Ellipsoids),
+        ("paper, kernel, ellipsoids", kernel, Particles::Ellipsoids),
     ]
 }
 
@@ -57,12 +62,13 @@ pub fn rods() -> [(&'static str, Scheme); 3] {
 /// # Panics
 /// If the scene were invalid or failed so early, which tests of the harness exclude.
 #[must_use]
-pub fn rod(scheme: Scheme) -> Simulation {
+pub fn rod(scheme: Scheme, particles: Particles) -> Simulation {
     let scene = find("long-rod").and_then(|rod| {
         let key = RunKey::new(rod.id(), scheme, CELLS);
         scene_of(rod, &key)?.space().cloned()
     });
-    let Some(scene) = scene else { panic!("the long rod is in space") };
+    let Some(mut scene) = scene else { panic!("the long rod is in space") };
+    scene.method.particles = particles;
     let mut simulation = match Simulation::new(&scene) {
         Ok(simulation) => simulation,
         Err(error) => panic!("the rod is a valid scene: {error}"),

@@ -266,7 +266,8 @@ enum Bench {
     Plate,
     /// The same of the sphere on aluminium
     Sphere,
-    /// Density of a kernel against the paper's on carbon-carbon, its Table 7; not run unless it is named
+    /// Density of a kernel against the paper's on carbon-carbon, its Table 7, and ellipsoids against spheres; not run unless
+    /// it is named
     Rivals,
 }
 

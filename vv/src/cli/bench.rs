@@ -7,7 +7,7 @@ use super::{Bench, BenchArgs, Failure, NUMERICAL_FAILURE, print, say};
 use crate::cost::{Comparison, Contender, CostError, EQUAL_LIST, compare};
 use crate::files::{ensure_writable_dir, write_atomic};
 use crate::memory::Keeps;
-use crate::pace::rivals::{self, Contest, Sight};
+use crate::pace::rivals::{self, Contest, Rival};
 use crate::pace::{self, PaceError, Stretch, measure};
 use crate::plots;
 use crate::record::{RunKey, Scheme};
@@ -60,40 +60,52 @@ const MIDDLE: f64 = 2.0;
 const TURN: usize = 600_000;
 const STEPS: usize = 16;
 
-/// What the density of a kernel costs on carbon-carbon: the paper's Table 7.
+/// Integrations that are compared.
+const BOTH: [Integrator; 2] = [Integrator::SinglePass, Integrator::Compatible];
+
+/// What the density of a kernel costs on carbon-carbon, the paper's Table 7, and what ellipsoids do.
 fn rivals(args: &BenchArgs) -> Result<(), Failure> {
     let case = super::run::find("rcc-plate")?;
     let sizes = args.cells.map_or_else(|| vec![4, 6, 8], |n| vec![n]);
-    let kernel = Scheme::Particles { preset: Preset::Paper, density: Density::Kernel };
-    let (mut outcomes, mut free) = (Vec::new(), Vec::new());
+    let (mut kernels, mut shapes, mut free) = (Vec::new(), Vec::new(), Vec::new());
     for n in sizes {
-        let scene = scene_of(case, &RunKey::new(case.id(), kernel, n));
-        let Some(scene) = scene.and_then(|scene| scene.space().cloned()) else {
-            return Err(Failure::usage("`rcc-plate` is in space"));
+        let of = |preset, density| {
+            let scene =
+                scene_of(case, &RunKey::new(case.id(), Scheme::Particles { preset, density }, n));
+            let scene = scene.and_then(|scene| scene.space().cloned());
+            scene.ok_or_else(|| Failure::usage("`rcc-plate` is in space"))
         };
-        expect(case, ("--cells", n), &scene.clone().into(), Keeps::default())?;
-        for integrator in [Integrator::SinglePass, Integrator::Compatible] {
-            for sight in Sight::ALL {
-                say(&format!("{}, {n} cells, {integrator:?}, {} ...", case.id(), sight.name()));
-                let particles = whipple_solver::space::Simulation::new(&scene)
-                    .map_err(Failure::usage)?
-                    .particles();
-                let steps = (TURN / particles).max(STEPS) as u64;
-                let contest =
-                    Contest { integrator, sight, from: MIDDLE, steps, rounds: args.rounds };
-                outcomes.push(rivals::compare(&scene, contest)?);
-                if args.whole {
-                    free.push(rivals::run_free(&scene, contest)?);
-                }
+        let paper = of(Preset::Paper, Density::Kernel)?;
+        expect(case, ("--cells", n), &paper.clone().into(), Keeps::default())?;
+        let particles =
+            whipple_solver::space::Simulation::new(&paper).map_err(Failure::usage)?.particles();
+        let steps = (TURN / particles).max(STEPS) as u64;
+        let contest = |integrator: Integrator, rival: Rival| {
+            say(&format!("{}, {n} cells, {}, {} ...", case.id(), integrator.name(), rival.name()));
+            Contest { integrator, rival, from: MIDDLE, steps, rounds: args.rounds }
+        };
+        for (integrator, rival) in BOTH.into_iter().flat_map(|by| Rival::KERNELS.map(|r| (by, r))) {
+            let contest = contest(integrator, rival);
+            kernels.push(rivals::compare(&paper, contest)?);
+            if args.whole {
+                free.push(rivals::run_free(&paper, contest)?);
             }
         }
+        for (preset, density) in
+            [(Preset::Paper, Density::Nonholonomic), (Preset::Default, Density::Hybrid)]
+        {
+            let scene = of(preset, density)?;
+            let contest = contest(scene.method.integrator, Rival::Ellipsoids);
+            shapes.push(rivals::compare(&scene, contest)?);
+        }
     }
-    let mut tables = vec![rivals::ratios(&outcomes), rivals::phases(&outcomes)];
+    let mut tables =
+        vec![rivals::ratios(&kernels), rivals::phases(&kernels), rivals::shapes(&shapes)];
     if args.whole {
         tables.push(rivals::whole(&free));
     }
     show(&tables, args, "")?;
-    draw(&rivals::figure(&outcomes), args, "rivals.svg")
+    draw(&rivals::figure(&kernels), args, "rivals.svg")
 }
 
 /// Prints tables, and writes them where that is wanted.
@@ -194,7 +206,7 @@ fn density(args: &BenchArgs) -> Result<(), Failure> {
         ("hybrid", with(Density::Hybrid, natural)),
     ];
     let mut rows = Vec::new();
-    for integrator in [Integrator::SinglePass, Integrator::Compatible] {
+    for integrator in BOTH {
         for (name, rival) in rivals {
             say(&format!("{name} against nonholonomic, {} ...", integrator.name()));
             rows.push(row(

@@ -1,9 +1,11 @@
-//! What the density of a kernel costs in three dimensions against that of the paper: its Table 7, in one run.
+//! What a rival costs in three dimensions, in one run: the density of a kernel against that of the paper, its Table 7, and
+//! ellipsoids against spheres.
 //!
 //! Both sides take the same number of steps of one length from the same time on, in turns A B B A, each turn from the
-//! same state. What differs is the density alone: list, layout, contacts and integration are one code.
+//! same state. What differs is the rival alone: list, layout and integration are one code.
 
 use whipple_solver::method::{Density, Integrator};
+use whipple_solver::space::method::Particles;
 use whipple_solver::space::phase::Phase;
 use whipple_solver::space::{Scene, Simulation};
 
@@ -18,18 +20,20 @@ const SHORTER: f64 = 0.5;
 /// The paper's Table 7: particles, and wall-clock time of the kernel over that without.
 pub const PUBLISHED: [(usize, f64); 3] = [(21_334, 1.394), (63_253, 1.289), (140_070, 1.320)];
 
-/// Which pairs the kernel sees.
+/// What is compared with what.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Sight {
-    /// Those that the paper's scheme lists: what differs is the sweep.
+pub enum Rival {
+    /// The density of a kernel with the pairs that the paper's scheme lists: what differs is the sweep.
     Equal,
-    /// Those within its own support: what a user pays.
+    /// That of a kernel with those within its own support: what a user pays.
     Natural,
+    /// Ellipsoids of equal axes, by the density of the scene, with spheres.
+    Ellipsoids,
 }
 
-impl Sight {
-    /// Both.
-    pub const ALL: [Self; 2] = [Self::Equal, Self::Natural];
+impl Rival {
+    /// Those of the paper's Table 7.
+    pub const KERNELS: [Self; 2] = [Self::Equal, Self::Natural];
 
     /// Name for tables.
     #[must_use]
@@ -37,6 +41,7 @@ impl Sight {
         match self {
             Self::Equal => "equal list",
             Self::Natural => "own support",
+            Self::Ellipsoids => "ellipsoids",
         }
     }
 }
@@ -46,8 +51,8 @@ impl Sight {
 pub struct Contest {
     /// Integration of both.
     pub integrator: Integrator,
-    /// Pairs of the kernel.
-    pub sight: Sight,
+    /// What is compared.
+    pub rival: Rival,
     /// Time of the states that both sides start from.
     pub from: f64,
     /// Steps of a turn.
@@ -78,9 +83,11 @@ pub struct Outcome {
     pub contest: Contest,
     /// Particles of the scene.
     pub particles: usize,
-    /// Nonholonomic, and kernel.
+    /// Density of the first side.
+    pub density: Density,
+    /// The first side, nonholonomic or spheres, and its rival.
     pub sides: [Side; 2],
-    /// CPU time of the kernel over that without, round by round.
+    /// CPU time of the rival over that of the first, round by round.
     pub ratios: Vec<f64>,
 }
 
@@ -107,17 +114,22 @@ impl Outcome {
     }
 }
 
-/// Both scenes of a contest: that of the paper's density, and that of the kernel.
+/// Both scenes of a contest, that of the rival last.
 fn scenes(scene: &Scene, contest: &Contest) -> [Scene; 2] {
-    let mut sides = [scene.clone(), scene.clone()];
-    for (side, density) in sides.iter_mut().zip([Density::Nonholonomic, Density::Kernel]) {
-        side.method.density = density;
-        side.method.integrator = contest.integrator;
-        if contest.sight == Sight::Equal {
-            side.method.kernel_support = side.method.contact_reach;
+    let mut first = scene.clone();
+    first.method.integrator = contest.integrator;
+    let mut rival = first.clone();
+    match contest.rival {
+        Rival::Ellipsoids => rival.method.particles = Particles::Ellipsoids,
+        Rival::Equal | Rival::Natural => {
+            first.method.density = Density::Nonholonomic;
+            rival.method.density = Density::Kernel;
         }
     }
-    sides
+    if contest.rival == Rival::Equal {
+        rival.method.kernel_support = rival.method.contact_reach;
+    }
+    [first, rival]
 }
 
 /// Compares the two on a scene, on one thread.
@@ -133,8 +145,10 @@ pub fn compare(scene: &Scene, contest: Contest) -> Result<Outcome, PaceError> {
 fn on_this_thread(scene: &Scene, contest: Contest) -> Result<Outcome, PaceError> {
     let mut states = Vec::new();
     let mut length = f64::INFINITY;
-    for scene in scenes(scene, &contest) {
-        let mut state = Simulation::new(&scene)?;
+    let scenes = scenes(scene, &contest);
+    let density = scenes[0].method.density;
+    for scene in &scenes {
+        let mut state = Simulation::new(scene)?;
         state.advance_to(contest.from)?;
         // A step of its own length, which none shortens to land on a time.
         let mut ahead = state.clone();
@@ -143,7 +157,8 @@ fn on_this_thread(scene: &Scene, contest: Contest) -> Result<Outcome, PaceError>
         states.push(state);
     }
     let particles = states[0].particles();
-    let mut outcome = Outcome { contest, particles, sides: Default::default(), ratios: Vec::new() };
+    let (sides, ratios) = (Default::default(), Vec::new());
+    let mut outcome = Outcome { contest, particles, density, sides, ratios };
     for _ in 0..contest.rounds.max(1) {
         let mut seconds = [0.0; 2];
         for which in [0, 1, 1, 0] {
@@ -223,42 +238,76 @@ fn integrator(of: Integrator) -> Cell {
     }
 }
 
-/// Ratios at equal steps.
+/// Columns that tell what is compared.
+fn compared(of: &str) -> Vec<Column> {
+    vec![Column::number("particles", ""), Column::text("integration"), Column::text(of)]
+}
+
+/// Columns of [`measured`], of what is called so over what is called so.
+fn measures([first, rival]: [&str; 2]) -> Vec<Column> {
+    vec![
+        Column::number(format!("{rival} / {first}"), ""),
+        Column::number("± of the median", "%"),
+        Column::number("least", ""),
+        Column::number("most", ""),
+        Column::number(first, "ns"),
+        Column::number(rival, "ns"),
+        Column::number("pairs listed", ""),
+    ]
+}
+
+/// Ratio with its scatter, both sides, and pairs.
+fn measured(outcome: &Outcome) -> Vec<Cell> {
+    let [first, rival] = &outcome.sides;
+    let extreme =
+        |pick: fn(f64, f64) -> f64, from: f64| outcome.ratios.iter().copied().fold(from, pick);
+    vec![
+        Cell::number(outcome.median(), 4),
+        Cell::number(100.0 * outcome.spread() / outcome.median(), 2),
+        Cell::number(extreme(f64::min, f64::INFINITY), 4),
+        Cell::number(extreme(f64::max, 0.0), 4),
+        Cell::number(1e9 * median(&first.seconds), 3),
+        Cell::number(1e9 * median(&rival.seconds), 3),
+        Cell::number(first.listed, 3),
+    ]
+}
+
+/// Ellipsoids over spheres at equal steps.
 #[must_use]
-pub fn ratios(outcomes: &[Outcome]) -> Table {
-    let number = |name: &str, unit: &str| Column::number(name, unit);
-    let columns = vec![
-        number("particles", ""),
-        Column::text("integration"),
-        Column::text("pairs of the kernel"),
-        number("kernel / nonholonomic", ""),
-        number("± of the median", "%"),
-        number("least", ""),
-        number("most", ""),
-        number("nonholonomic", "ns"),
-        number("kernel", "ns"),
-        number("pairs listed", ""),
-        number("of the kernel", ""),
-        number("kernel evals", ""),
-    ];
+pub fn shapes(outcomes: &[Outcome]) -> Table {
+    let mut columns = compared("density");
+    columns.extend(measures(["spheres", "ellipsoids"]));
+    columns.push(Column::number("pairs acting", ""));
     let rows = outcomes.iter().map(|outcome| {
-        let [plain, kernel] = &outcome.sides;
-        let extreme =
-            |pick: fn(f64, f64) -> f64, from: f64| outcome.ratios.iter().copied().fold(from, pick);
-        vec![
+        let mut row = vec![
             Cell::count(outcome.particles as u64),
             integrator(outcome.contest.integrator),
-            outcome.contest.sight.name().into(),
-            Cell::number(outcome.median(), 4),
-            Cell::number(100.0 * outcome.spread() / outcome.median(), 2),
-            Cell::number(extreme(f64::min, f64::INFINITY), 4),
-            Cell::number(extreme(f64::max, 0.0), 4),
-            Cell::number(1e9 * median(&plain.seconds), 3),
-            Cell::number(1e9 * median(&kernel.seconds), 3),
-            Cell::number(plain.listed, 3),
-            Cell::number(kernel.listed, 3),
-            Cell::number(kernel.evaluations, 3),
-        ]
+            outcome.density.name().into(),
+        ];
+        row.extend(measured(outcome));
+        row.push(Cell::number(outcome.sides[0].acting, 3));
+        row
+    });
+    let caption = "CPU time of a particle and step of ellipsoids of equal axes over that of spheres, measured alike.";
+    Table { id: "rivals-shapes".into(), caption: caption.into(), columns, rows: rows.collect() }
+}
+
+/// Kernel over nonholonomic at equal steps.
+#[must_use]
+pub fn ratios(outcomes: &[Outcome]) -> Table {
+    let mut columns = compared("pairs of the kernel");
+    columns.extend(measures(["nonholonomic", "kernel"]));
+    columns.extend([Column::number("of the kernel", ""), Column::number("kernel evals", "")]);
+    let rows = outcomes.iter().map(|outcome| {
+        let kernel = &outcome.sides[1];
+        let mut row = vec![
+            Cell::count(outcome.particles as u64),
+            integrator(outcome.contest.integrator),
+            outcome.contest.rival.name().into(),
+        ];
+        row.extend(measured(outcome));
+        row.extend([Cell::number(kernel.listed, 3), Cell::number(kernel.evaluations, 3)]);
+        row
     });
     let published: Vec<String> =
         PUBLISHED.iter().map(|(particles, ratio)| format!("{ratio} with {particles}")).collect();
@@ -273,12 +322,8 @@ pub fn ratios(outcomes: &[Outcome]) -> Table {
 /// Where the time goes, in nanoseconds of a particle and step.
 #[must_use]
 pub fn phases(outcomes: &[Outcome]) -> Table {
-    let mut columns = vec![
-        Column::number("particles", ""),
-        Column::text("integration"),
-        Column::text("pairs of the kernel"),
-        Column::text("density"),
-    ];
+    let mut columns = compared("pairs of the kernel");
+    columns.push(Column::text("density"));
     columns.extend(Phase::ALL.map(|phase| Column::number(phase.name(), "ns")));
     let rows = outcomes.iter().flat_map(|outcome| {
         let sides = ["nonholonomic", "kernel"].into_iter().zip(&outcome.sides);
@@ -286,7 +331,7 @@ pub fn phases(outcomes: &[Outcome]) -> Table {
             let mut row = vec![
                 Cell::count(outcome.particles as u64),
                 integrator(outcome.contest.integrator),
-                outcome.contest.sight.name().into(),
+                outcome.contest.rival.name().into(),
                 density.into(),
             ];
             row.extend(side.phases.map(|seconds| Cell::number(1e9 * seconds, 3)));
@@ -301,22 +346,19 @@ pub fn phases(outcomes: &[Outcome]) -> Table {
 /// Whole runs.
 #[must_use]
 pub fn whole(runs: &[Free]) -> Table {
-    let number = |name: &str, unit: &str| Column::number(name, unit);
-    let columns = vec![
-        number("particles", ""),
-        Column::text("integration"),
-        Column::text("pairs of the kernel"),
-        number("kernel / nonholonomic", ""),
-        number("nonholonomic", "s"),
-        number("kernel", "s"),
-        number("steps", ""),
-        number("of the kernel", ""),
-    ];
+    let mut columns = compared("pairs of the kernel");
+    columns.extend([
+        Column::number("kernel / nonholonomic", ""),
+        Column::number("nonholonomic", "s"),
+        Column::number("kernel", "s"),
+        Column::number("steps", ""),
+        Column::number("of the kernel", ""),
+    ]);
     let rows = runs.iter().map(|run| {
         vec![
             Cell::count(run.particles as u64),
             integrator(run.contest.integrator),
-            run.contest.sight.name().into(),
+            run.contest.rival.name().into(),
             Cell::number(run.cpu[1] / run.cpu[0], 4),
             Cell::number(run.cpu[0], 3),
             Cell::number(run.cpu[1], 3),
@@ -334,14 +376,14 @@ pub fn figure(outcomes: &[Outcome]) -> Figure {
     let mut panel =
         Panel::new("", Axis::log("particles"), Axis::linear("CPU time, kernel / nonholonomic"));
     for by in [Integrator::SinglePass, Integrator::Compatible] {
-        for sight in Sight::ALL {
+        for rival in Rival::KERNELS {
             let own = outcomes.iter().filter(|outcome| {
-                outcome.contest.integrator == by && outcome.contest.sight == sight
+                outcome.contest.integrator == by && outcome.contest.rival == rival
             });
             let points: Vec<(f64, f64)> =
                 own.map(|outcome| (outcome.particles as f64, outcome.median())).collect();
             if !points.is_empty() {
-                let name = format!("{}, {}", integrator(by).text, sight.name());
+                let name = format!("{}, {}", integrator(by).text, rival.name());
                 panel = panel.with(Series::line(name, points));
             }
         }
@@ -362,14 +404,14 @@ mod tests {
     fn counts_are_those_of_all_pairs() {
         let scene = find("planar-impact").expect("the case").scene(Preset::Paper, "", 8);
         let scene = scene.space().expect("a scene in space");
-        for sight in Sight::ALL {
+        for rival in Rival::KERNELS {
             let integrator = Integrator::SinglePass;
-            let contest = Contest { integrator, sight, from: 0.0, steps: 3, rounds: 1 };
+            let contest = Contest { integrator, rival, from: 0.0, steps: 3, rounds: 1 };
             let outcome = compare(scene, contest).expect("a run");
             let [plain, kernel] = &outcome.sides;
             assert_eq!(plain.evaluations, 0.0);
             let same = (plain.listed - kernel.listed).abs() < 1e-12;
-            assert_eq!(same, sight == Sight::Equal, "{} {}", plain.listed, kernel.listed);
+            assert_eq!(same, rival == Rival::Equal, "{} {}", plain.listed, kernel.listed);
 
             let own = &scenes(scene, &contest)[1];
             let mut simulation = Simulation::new(own).expect("a scene");
@@ -388,7 +430,7 @@ mod tests {
                 own.sum::<usize>()
             };
             let support = own.method.kernel_support;
-            assert_eq!(evaluations, 2 * count(support) as u64, "{}", sight.name());
+            assert_eq!(evaluations, 2 * count(support) as u64, "{}", rival.name());
             // The list reaches further than the kernel by its margin.
             let listed = simulation.pairs();
             assert!(count(support) < listed && listed <= count(support + 0.9), "{listed}");
