@@ -79,7 +79,7 @@ fn gas_scene(
 ) -> Result<line::Scene, Trouble> {
     let found = find(case).map(|c| c.scene(sheet.preset(), "", c.default_size()));
     let Some(AnyScene::Line(mut scene)) = found else {
-        return Err(Trouble::Other(format!("no case `{}` along a line", case)));
+        return Err(Trouble::Other(format!("no case `{case}` along a line")));
     };
     scene.method = sheet.line();
     if let Some([left, right]) = pressures {

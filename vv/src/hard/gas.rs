@@ -16,7 +16,7 @@ use crate::scene::AnyScene;
 pub(super) fn of_case(sheet: &Sheet, id: &str, n: usize) -> Result<Scene, Trouble> {
     let found = find(id).map(|case| case.scene(sheet.preset(), "", n));
     let Some(AnyScene::Line(mut scene)) = found else {
-        return Err(Trouble::Other(format!("no case `{}` along a line", id)));
+        return Err(Trouble::Other(format!("no case `{id}` along a line")));
     };
     scene.method = sheet.line();
     Ok(scene)

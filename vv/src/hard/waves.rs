@@ -150,7 +150,7 @@ fn reflected(sheet: &Sheet, ratio: usize) -> Result<f64, Trouble> {
         material: "gas".into(),
         from,
         to,
-        particles: ((to - from) * per_length as f64) as usize / finer,
+        particles: ((to - from) * f64::from(per_length)) as usize / finer,
         layout: Layout::Centres,
         compression: 1.0,
         interface: Interface::Joined,
