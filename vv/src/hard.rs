@@ -115,7 +115,7 @@ pub fn reason(id: &str, scheme: Scheme) -> Option<&'static str> {
             "the first step knows no rates of volumes and is too long: after one of 1e-6 us the column at 20 km/s holds; \
              that at 50 km/s does not",
         ),
-        "H13" if !paper => Some(
+        "H13" if scheme == SCHEMES[0] => Some(
             "the first step knows no rates of volumes and is too long: after one of 1e-6 no energy is negative",
         ),
         "H24" => {
