@@ -13,6 +13,7 @@ use times::{SimulatedTime, wall_time};
 
 mod bench;
 mod folder;
+mod hard;
 mod list;
 mod numbers;
 mod progress;
@@ -189,7 +190,8 @@ struct RunArgs {
 
 #[derive(Debug, clap::Args)]
 struct VvArgs {
-    /// Cases; all when none is named
+    /// Cases; all when none is named. `hard` is the group of cases that try to break the solver; those named after
+    /// it, such as `hard H03`, run alone
     cases: Vec<String>,
     /// How much to run
     #[arg(long, value_parser = reports::levels(), default_value = Level::Standard.name())]
@@ -364,6 +366,12 @@ impl From<crate::files::FileError> for Failure {
     }
 }
 
+impl From<crate::hard::HardError> for Failure {
+    fn from(error: crate::hard::HardError) -> Self {
+        Self::usage(error)
+    }
+}
+
 impl From<crate::record::RecordError> for Failure {
     fn from(error: crate::record::RecordError) -> Self {
         Self::usage(error)
@@ -385,6 +393,7 @@ pub fn main() -> u8 {
     let ended = match cli.command {
         Command::List(args) => list::list(&args),
         Command::Run(args) => run::run(&args),
+        Command::Vv(args) if args.cases.iter().any(|name| name == hard::GROUP) => hard::hard(&args),
         Command::Vv(args) => reports::vv(&args),
         Command::Report(args) => reports::report(&args),
         Command::Bench(args) => bench::bench(&args),

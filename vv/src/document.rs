@@ -5,6 +5,7 @@
 mod case;
 mod deviations;
 mod front;
+pub mod hard;
 
 use whipple_solver::method::Preset;
 

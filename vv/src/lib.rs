@@ -10,6 +10,7 @@ pub mod document;
 pub mod exact;
 pub mod files;
 pub mod godunov;
+pub mod hard;
 pub mod keys;
 pub mod memory;
 pub mod norms;

@@ -17,6 +17,7 @@ use crate::cases::{ALL, Case, Level, woodward_colella};
 use crate::claims::{Status, Verdict, Weight};
 use crate::document;
 use crate::files::{ensure_writable_dir, write_atomic};
+use crate::hard::{self, HardRecords};
 use crate::memory::Keeps;
 use crate::pictures::read_pictures;
 use crate::plots;
@@ -222,28 +223,36 @@ struct Made {
 /// The report of a folder of records, in memory.
 fn made(folder: &Path) -> Result<Made, Failure> {
     let there = records_folder(folder);
+    let hard = HardRecords::read(&hard::folder(folder))?;
+    let without_hard = hard.iter().next().is_none();
     let nothing = |what: &str| {
         Failure::usage(format!(
             "no report in {}: {what}; `whipple vv --out {0}` makes one, --out names another",
             folder.display()
         ))
     };
-    if !there.is_dir() {
+    if !there.is_dir() && without_hard {
         return Err(nothing("it has no folder `records`"));
     }
-    let records = Records::read(&there)?;
-    if records.iter().next().is_none() {
+    let records = if there.is_dir() { Records::read(&there)? } else { Records::default() };
+    if records.iter().next().is_none() && without_hard {
         return Err(nothing("its folder `records` holds no record"));
     }
     // Pictures are not drawn again: they must be those of the records.
     let mut drawings = read_pictures(&there, &records).map_err(Failure::usage)?;
     let verdicts = verdicts(&records);
-    let (report, figures) = document::compose(&records, &verdicts);
+    let (mut report, figures) = document::compose(&records, &verdicts);
+    report.sections.extend(document::hard::section(&hard, &hard::stated()));
     for figure in &figures {
         let svg = plots::render_svg(figure).map_err(Failure::usage)?;
         drawings.insert(figure.id.clone(), Drawing::Chart(svg));
     }
     Ok(Made { report, drawings, verdicts })
+}
+
+/// Draws the report of a folder from its records; returns the page.
+pub(super) fn draw_anew(folder: &Path) -> Result<PathBuf, Failure> {
+    draw(&made(folder)?, folder, false)
 }
 
 /// Writes a report to a folder, or only its page with the pictures within; returns the page.

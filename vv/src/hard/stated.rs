@@ -1,0 +1,56 @@
+//! The list of hard cases: what is set up, and what decides.
+
+use serde::Deserialize;
+
+/// The list, as it stands in `references/`.
+const LIST: &str = include_str!("../../../references/hard_cases.toml");
+
+/// How much a failure weighs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Severity {
+    /// It blocks a release.
+    Must,
+    /// It is reported with its reason.
+    Should,
+}
+
+impl Severity {
+    /// Name for tables.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Must => "must",
+            Self::Should => "should",
+        }
+    }
+}
+
+/// A case as the list states it.
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Stated {
+    /// Its name in commands and tables, H01 to H30.
+    pub id: String,
+    /// What it is called.
+    pub name: String,
+    /// What is set up.
+    pub setup: String,
+    /// What decides.
+    pub pass: String,
+    /// Why it is in the list.
+    #[serde(default)]
+    pub why: String,
+    /// How much a failure weighs.
+    pub severity: Severity,
+}
+
+/// The list of hard cases; empty if it cannot be read, which a test excludes.
+#[must_use]
+pub fn stated() -> Vec<Stated> {
+    #[derive(Deserialize)]
+    struct List {
+        case: Vec<Stated>,
+    }
+    toml::from_str::<List>(LIST).map(|list| list.case).unwrap_or_default()
+}
