@@ -129,9 +129,9 @@ fn expected(cases: &[&'static dyn Case], level: Level, forecast: &Forecast) -> S
 /// What a level took with all cases on two cores.
 fn usual(level: Level) -> &'static str {
     match level {
-        Level::Quick => "about 2 minutes",
-        Level::Standard => "about 9 minutes",
-        Level::Full => "about 42 minutes",
+        Level::Quick => "about 1 minute",
+        Level::Standard => "about 5 minutes",
+        Level::Full => "about 35 minutes",
     }
 }
 
@@ -328,7 +328,7 @@ mod tests {
         let said = expected(&ALL, Level::Full, &unknown);
         assert_eq!(
             said,
-            "level full: 7 runs of all 26 cases, about 42 minutes where it was measured"
+            "level full: 7 runs of all 26 cases, about 35 minutes where it was measured"
                 .replace("26", &ALL.len().to_string())
         );
         let rod = [crate::cases::find(rod).expect("the case")];

@@ -211,6 +211,12 @@ fn note_idle(sets: &[String], redundant: &[&String], scene: &AnyScene) -> Vec<St
     sets.iter().filter_map(note).collect()
 }
 
+/// Mentions a variant of the kernel's support that is run without it.
+fn note_support(variant: &str, scene: &AnyScene) -> Option<String> {
+    let why = keys::idle("kernel_support", scene).filter(|_| variant.starts_with("support-"))?;
+    Some(format!("the variant `{variant}` changes nothing in this run: {why}"))
+}
+
 /// Refuses a value that both an option of its own and `--set` give.
 fn refuse_given_twice(args: &RunArgs) -> Result<(), Failure> {
     let own = [
@@ -328,6 +334,7 @@ fn request<'a>(
     };
     if let Some(scene) = &scene {
         notes.extend(note_idle(&args.sets, &redundant, scene));
+        notes.extend(note_support(&args.variant, scene));
     }
     let stop = stop.iter().map(|time| format!("--stop {time}"));
     let text = |set: &String| format!("--set {set}");
