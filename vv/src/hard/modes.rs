@@ -167,14 +167,19 @@ fn pattern(scene: &Scene, [mode, axis]: [usize; 2], steps: usize) -> Result<[f64
         let sign = if is_centroid(p) { 0.0 } else { signs(place(p))[mode] };
         std::array::from_fn(|d| if d == axis { AMPLITUDE * EDGE * sign } else { 0.0 })
     })?;
+    // By places in space: the axes of a lattice may stand in another order.
+    let whole = Simulation::new(scene)?;
+    let mut own = vec![0.0; whole.all_particles().map(|p| p.id as usize + 1).max().unwrap_or(0)];
+    for p in whole.all_particles() {
+        own[p.id as usize] = signs(place(&p))[mode];
+    }
     let amplitude = |simulation: &Simulation| {
         let squares: Vec<f64> = simulation
             .all_elements()
             .map(|element| {
                 let of = |slot: usize| {
-                    let bits = [slot & 1, slot >> 1 & 1, slot >> 2 & 1];
                     let id = element.corners[slot] as usize;
-                    0.125 * signs(bits)[mode] * simulation.displacement(id)[axis]
+                    0.125 * own[id] * simulation.displacement(id)[axis]
                 };
                 (0..8).map(of).sum::<f64>().powi(2)
             })
@@ -199,6 +204,19 @@ fn pattern(scene: &Scene, [mode, axis]: [usize; 2], steps: usize) -> Result<[f64
 mod tests {
     use super::super::{Extent, SCHEMES};
     use super::*;
+
+    #[test]
+    fn every_pattern_is_there_at_the_start() {
+        let sheet = Sheet::new(SCHEMES[0], Extent::Quick).expect("particles");
+        for (mode, axis) in (0..4).flat_map(|mode| (0..3).map(move |axis| (mode, axis))) {
+            let body = block("copper", CELLS, EDGE);
+            let scene = scene(sheet.space(), vec![COPPER.fluid()], vec![body]);
+            let Ok([most, _]) = pattern(&scene, [mode, axis], 20) else {
+                panic!("pattern {mode} along {axis} does not run");
+            };
+            assert!(most > 0.5 && most < 2.0, "{mode} {axis}: {most}");
+        }
+    }
 
     #[test]
     fn patterns_have_no_linear_part() {
