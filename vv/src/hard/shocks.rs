@@ -139,7 +139,7 @@ pub(super) fn released(sheet: &mut Sheet) {
             let mut simulation = Simulation::new(&scene)?;
             let planes = Planes::new(&simulation, 0, 0.5 * EDGE);
             // The shock runs through and the release back; then the block rings about its stress-free state, so
-            // that densities are averaged over the time after.
+            // that densities are averaged over the time after. In sample: chosen when single readings had missed.
             let crossing = length / metal.sound();
             let mut densities = Vec::new();
             for k in 0..=LOOKS {

@@ -128,12 +128,18 @@ fn bricks_lose_nothing() {
 fn debris_of_bricks_rotates() {
     let mut scene = collision(Density::Hybrid);
     crumbling(&mut scene);
-    let simulation = after(&scene, 400);
+    let mut simulation = after(&scene, 590);
+    let before = poses(&simulation);
+    march(&mut simulation, 10);
+    let free: Vec<bool> = simulation.all_particles().map(|p| p.held == 0.0).collect();
+    let turned = before.iter().zip(poses(&simulation)).zip(free).filter(|(_, free)| *free);
+    let turned = turned.map(|((a, b), _)| norm(sub(a[0], b[0]))).fold(0.0, f64::max);
     let b = simulation.balance();
     let lost = [b.momentum_drift(), b.angular_drift(), b.energy_drift(), b.relative_residual()];
     let dead = simulation.failed().1;
-    println!("{lost:?}, dead {dead}, acting {}", simulation.acting());
-    assert!(dead > 10 && simulation.acting() > 50);
+    println!("{lost:?}, dead {dead}, acting {}, turned {turned:.3}", simulation.acting());
+    assert!(turned > 0.01, "{turned}");
+    assert!(dead > 15 && simulation.acting() > 50);
     assert!(lost[..3].iter().all(|lost| *lost < 1e-12), "{lost:?}");
 }
 
