@@ -19,7 +19,7 @@ pub enum Kind {
     Replication,
     /// An experiment.
     Validation,
-    /// Another code, or an own converged reference.
+    /// Another code, an own converged reference, or an equation fitted to tests.
     Comparison,
     /// Work and time.
     Cost,

@@ -175,6 +175,10 @@ impl Case for LongRod {
         claims::all()
     }
 
+    fn references(&self, key: &RunKey, norm: &str) -> Vec<(&'static str, f64)> {
+        published::references(key, norm)
+    }
+
     fn tabulated(&self) -> &'static [(&'static str, &'static str)] {
         &[
             ("residual_length_cm", "length, cm"),

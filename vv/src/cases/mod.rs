@@ -215,6 +215,12 @@ pub trait Case: Sync {
     /// The norms that the report tabulates, with their titles.
     fn tabulated(&self) -> &'static [(&'static str, &'static str)];
 
+    /// What a norm of a run is held against, by name, whether or not a claim is made of that run: variants and
+    /// sizes of which nothing is claimed have an answer as well.
+    fn references(&self, _key: &RunKey, _norm: &str) -> Vec<(&'static str, f64)> {
+        Vec::new()
+    }
+
     /// Decimals of a norm that is measured too coarsely for four digits.
     fn decimals(&self, _norm: &str) -> Option<usize> {
         None

@@ -125,6 +125,14 @@ impl Case for RccPlate {
         claims::all()
     }
 
+    fn references(&self, key: &RunKey, norm: &str) -> Vec<(&'static str, f64)> {
+        if norm == claims::HOLE {
+            vec![(claims::EQUATION, claims::nasa(&key.variant))]
+        } else {
+            Vec::new()
+        }
+    }
+
     fn tabulated(&self) -> &'static [(&'static str, &'static str)] {
         &perforation::TABULATED
     }

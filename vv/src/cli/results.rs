@@ -139,12 +139,37 @@ impl<'a> Bounds<'a> {
 
     /// What is wanted of a number and, in a run of the case as it stands, whether it is that.
     fn judgement(&self, verdict: &Verdict) -> String {
-        let wanted = reference(verdict, self.is_changed());
+        let wanted = self.wanted(verdict);
         if self.is_changed() { wanted } else { format!("{wanted}: {}", verdict.word()) }
     }
 
-    /// The value that other runs of the variant are held against, if it is one for all sizes.
+    /// What a claim wants, after what it is held against; of a run that was changed nothing fails.
+    fn wanted(&self, verdict: &Verdict) -> String {
+        let claim = &verdict.claim;
+        let wanted = if self.is_changed() { claim.wanted.text() } else { verdict.wanted() };
+        match (claim.wanted.target(), claim.weight) {
+            (Some(target), _) => format!("{} {wanted}", self.against(claim, target)),
+            (None, Weight::Aim) => format!("goal {wanted}"),
+            (None, _) => format!("wanted {wanted}"),
+        }
+    }
+
+    /// What a claim is held against, as its case calls it, or by its kind.
+    fn against(&self, claim: &Claim, target: f64) -> &'static str {
+        let Quantity::Norm(key, norm) = &claim.quantity else { return against(claim.kind) };
+        let named = self.case.references(key, norm);
+        let same = |(_, value): &&(&str, f64)| *value == target;
+        named.iter().find(same).map_or(against(claim.kind), |(name, _)| name)
+    }
+
+    /// What a number of which nothing is claimed is held against: what the case knows of it, or the value of
+    /// other runs of the variant, if it is one for all sizes.
     fn elsewhere(&self, name: &str) -> Option<String> {
+        let known = self.case.references(&self.key, name);
+        if !known.is_empty() {
+            let known = known.iter().map(|(by, value)| format!("{by} {}", sig(*value, 5)));
+            return Some(known.collect::<Vec<_>>().join("; "));
+        }
         let claims = self.case.claims();
         let mut values = claims.iter().filter_map(|claim| {
             let Quantity::Norm(key, norm) = &claim.quantity else { return None };
@@ -165,17 +190,6 @@ fn against(kind: Kind) -> &'static str {
         Kind::Validation => "experiment",
         Kind::Comparison => "reference",
         Kind::Cost | Kind::Stability => "wanted",
-    }
-}
-
-/// What a claim wants, after what it is held against; of a run that was changed nothing fails.
-fn reference(verdict: &Verdict, changed: bool) -> String {
-    let claim = &verdict.claim;
-    let wanted = if changed { claim.wanted.text() } else { verdict.wanted() };
-    match (claim.wanted.target(), claim.weight) {
-        (Some(_), _) => format!("{} {wanted}", against(claim.kind)),
-        (None, Weight::Aim) => format!("goal {wanted}"),
-        (None, _) => format!("wanted {wanted}"),
     }
 }
 

@@ -135,7 +135,7 @@ fn kinds_table(verdicts: &[Verdict]) -> Table {
     ];
     let caption = "Claims by kind. Conservation is the part of verification that says of a run that energy and \
                    momentum stay to round-off, and nothing of its accuracy. Validation needs an experiment: the \
-                   long rod and the Taylor impacts have one; the plate of carbon-carbon has an equation fitted to tests.";
+                   long rod and the Taylor impacts have one; the plate of carbon-carbon has an equation fitted to tests, which is a comparison.";
     Table { id: "kinds".into(), caption: caption.into(), columns, rows }
 }
 
@@ -204,8 +204,8 @@ pub(super) fn reading() -> Section {
     let items = [
         "*Verification*: against an exact solution. *Replication*: against a number printed in the \
          paper, whatever its accuracy. *Validation*: against an experiment. *Comparison*: against \
-         another code or an own converged reference. *Cost*: work and time. *Stability*: a hard case \
-         with its pass number.",
+         another code, an own converged reference or an equation fitted to tests. *Cost*: work and time. \
+         *Stability*: a hard case with its pass number.",
         "`paper` is the paper's method as it stands, with the repairs without which it does not run: \
          it exists for replication and is not Galilean invariant. Claims rest on `default` unless they \
          name `paper`. `default + kernel` has an evolving kernel density in its place and all else equal. \

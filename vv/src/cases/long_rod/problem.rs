@@ -30,6 +30,8 @@ pub(super) const SIZES: [usize; 3] = [5, 7, 9];
 /// stand under the wrong metal; the plain variant converts their hardening to Eq. (44) besides.
 pub(super) const AS_PRINTED: &str = "as-printed";
 pub(super) const EXCHANGED: &str = "exchanged";
+/// All three, that of the plain variant first.
+pub(super) const READINGS: [&str; 3] = ["", AS_PRINTED, EXCHANGED];
 /// Twice the plate.
 pub(super) const WIDE: &str = "wide";
 /// Other linear coefficients of the viscosity than 0.7.

@@ -1,7 +1,11 @@
 //! What is known of the residual rod: Table 5 of the paper, the experiment, and what the paper says of
 //! another code.
 
+use whipple_solver::method::Preset;
+
+use super::problem::{READINGS, SIZES};
 use crate::claims::Wanted;
+use crate::record::{RunKey, Scheme};
 
 /// Particles of the rows of Table 5, coarse to fine.
 pub(super) const PARTICLES: [u64; 3] = [35_992, 92_498, 187_826];
@@ -74,6 +78,16 @@ impl Known {
     pub(super) fn near_table_5(&self, size: usize) -> Wanted {
         Wanted::Near(self.table_5[size], self.share)
     }
+}
+
+/// What a norm of a run is held against: the experiment, and Table 5 where `paper` has a row of its cells.
+pub(super) fn references(key: &RunKey, norm: &str) -> Vec<(&'static str, f64)> {
+    let Some(known) = KNOWN.iter().find(|known| known.norm == norm) else { return Vec::new() };
+    let replicates =
+        key.scheme == Scheme::preset(Preset::Paper) && READINGS.contains(&key.variant.as_str());
+    let size = SIZES.iter().position(|n| *n == key.n).filter(|_| replicates);
+    let row = size.map(|size| ("paper, Table 5:", known.table_5[size]));
+    [("experiment", known.measured)].into_iter().chain(row).collect()
 }
 
 #[cfg(test)]

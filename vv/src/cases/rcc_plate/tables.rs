@@ -2,7 +2,7 @@
 
 use whipple_solver::method::Preset;
 
-use super::claims::{SCATTER, angles, nasa, states};
+use super::claims::{HOLE, SCATTER, angles, nasa, states};
 use super::problem::{ID, SIZES, STEP_08, changes, degrees, words};
 use super::{SHAPES, kernel, varied};
 use crate::cases::parts::studies::{FORMAL_ORDER, Judged, band, number, percent};
@@ -18,7 +18,7 @@ const COST: &str = include_str!("../../../../references/paper_table7_cost.csv");
 
 /// All tables, of what the records have.
 pub(super) fn all(records: &Records) -> Vec<Table> {
-    [Some(validation(records)), moves(records), SHAPES.table(records), cost(records)]
+    [Some(beside_equation(records)), moves(records), SHAPES.table(records), cost(records)]
         .into_iter()
         .flatten()
         .collect()
@@ -29,7 +29,7 @@ fn norm(records: &Records, key: &RunKey, name: &str) -> Option<f64> {
 }
 
 fn hole(records: &Records, key: &RunKey) -> Option<f64> {
-    norm(records, key, "hole_diameter_cm")
+    norm(records, key, HOLE)
 }
 
 /// Standard uncertainty of the hole at the plain angle by the cells, as a part of it: half the band over
@@ -51,8 +51,8 @@ fn input(records: &Records) -> Option<f64> {
     Some(of_range(&holes) / holes[0])
 }
 
-/// Holes beside NASA's equation (ASME V&V 20).
-fn validation(records: &Records) -> Table {
+/// Holes beside NASA's equation, with the uncertainties of ASME V&V 20.
+fn beside_equation(records: &Records) -> Table {
     let parts = [numerical(records), input(records)];
     let finer = SIZES[1..].iter().map(|&n| default_run(ID, n));
     let keys = angles().into_iter().chain(finer);
@@ -78,9 +78,10 @@ fn validation(records: &Records) -> Table {
     ];
     columns.extend(Judged::columns());
     Table {
-        id: "rcc-plate-validation".into(),
+        id: "rcc-plate-equation".into(),
         caption: format!(
-            "Diameter of the hole in cm beside NASA's equation, by ASME V&V 20-2009: S at 10 µs, D the equation, \
+            "Diameter of the hole in cm beside NASA's equation, which is fitted to tests of coated panels: a \
+             comparison, no validation by a test, with the uncertainties of ASME V&V 20-2009. S at 10 µs, D the equation, \
              u_val² = u_num² + u_input² + u_D², standard uncertainties; the error of the model lies in \
              E ± {} u_val. u_num: half the band quoted over 4, 6 and 8 cells, and the range over the safeties \
              0.9 and 0.8 of the step over 2√3. u_input: the range over the three equations of state of the \
@@ -104,7 +105,7 @@ fn moves(records: &Records) -> Option<Table> {
     keys.push((paper_run(ID, SIZES[0]), words("")));
     keys.extend(Preset::ALL.map(|preset| (kernel(preset), "density by a kernel")));
     let shown = [
-        ("hole_diameter_cm", "hole", "cm"),
+        (HOLE, "hole", "cm"),
         ("hole_sound_cm", "hole in what has not failed", "cm"),
         ("hole_growth_cm_us", "growth of the hole", "cm/µs"),
         ("debris_front_km_s", "front of the cloud", "km/s"),
@@ -193,7 +194,7 @@ mod tests {
     /// A record with this hole.
     fn record(key: RunKey, diameter: f64) -> RunRecord {
         let mut record = blank(key, 1, String::new());
-        record.norms.insert("hole_diameter_cm".into(), diameter);
+        record.norms.insert(HOLE.into(), diameter);
         record
     }
 
@@ -204,7 +205,7 @@ mod tests {
         for (k, key) in claims::runs(Extent::Full).into_iter().enumerate() {
             records.insert(record(key, 2.0 + 0.01 * k as f64));
         }
-        let (holes, moved) = (validation(&records), moves(&records).expect("a table"));
+        let (holes, moved) = (beside_equation(&records), moves(&records).expect("a table"));
         assert_eq!(holes.rows.len(), 6);
         for row in &holes.rows {
             // u_val is known where every part is.
