@@ -13,12 +13,18 @@ fn shown(records: &Records) -> Vec<(Curve, &Series)> {
     let presets = [(Preset::Default, Dash::Solid), (Preset::Paper, Dash::Dashed)];
     let all = presets.into_iter().flat_map(|(preset, dash)| {
         SIZES.into_iter().enumerate().map(move |(hue, n)| {
-            let name = format!("{}, n = {n}", preset.name());
-            (Curve::line(name, Vec::new()).styled(dash, hue), key(preset, n))
+            let key = key(preset, n);
+            // Of `paper` it is no plain run that stands beside Table 5.
+            let name = format!("{} {}", preset.name(), key.variant);
+            let name = format!("{}, n = {n}", name.trim_end());
+            (Curve::line(name, Vec::new()).styled(dash, hue), key)
         })
     });
     all.filter_map(|(curve, key)| Some((curve, records.get(&key)?.history.as_ref()?))).collect()
 }
+
+/// End of the axis of time in us: labels of level lines stand right of the curves, which end at 100.
+const AXIS_END: f64 = 128.0;
 
 /// Length and velocity over time.
 pub(super) fn histories(records: &Records) -> Option<Figure> {
@@ -28,7 +34,8 @@ pub(super) fn histories(records: &Records) -> Option<Figure> {
     }
     let [coarse, _, fine] = LENGTH.table_5;
     let panel = |column: &str, label: &str, rules: &[(f64, &str)]| {
-        let mut panel = Panel::new("", Axis::linear("time, µs"), Axis::linear(label));
+        let time = Axis::linear("time, µs").range(0.0, AXIS_END);
+        let mut panel = Panel::new("", time, Axis::linear(label));
         for (curve, history) in &runs {
             panel = panel.with(Curve { points: history.points("time", column), ..curve.clone() });
         }
@@ -45,7 +52,8 @@ pub(super) fn histories(records: &Records) -> Option<Figure> {
         panel("velocity", "residual velocity, km/s", &velocities),
     ];
     let caption = "What is left of the rod: length and velocity of the largest connected set of live \
-                   elements. Solid: `default`, dashed: `paper`; a colour for each size. Level lines: the experiment, \
+                   elements. Solid: `default`, dashed: `paper` with Table 4 \
+                   `as-printed`; a colour for each size. Level lines: the experiment, \
                    and Table 5 of the paper.";
     Some(Figure::new("long-rod-residual", caption, panels))
 }
