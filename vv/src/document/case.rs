@@ -2,7 +2,7 @@
 
 use crate::cases::{Case, Level as Extent};
 use crate::claims::{Verdict, order};
-use crate::convergence::{self, Level};
+use crate::convergence::{self, Behaviour, Level};
 use crate::plots::Figure;
 use crate::record::{Outcome, Records, RunKey, RunRecord, Scheme};
 use crate::report::{Block, Cell, Column, Section, Status, Table, sig};
@@ -161,12 +161,18 @@ fn grid_table(case: &dyn Case, runs: &[&RunRecord]) -> Option<Table> {
             };
             let number =
                 |x: Option<f64>, digits| x.map_or_else(|| "–".into(), |x| Cell::number(x, digits));
+            let behaviour = format!("{:?}", study.behaviour).to_lowercase();
+            // What does not converge has no limit to go to.
+            let limit = match (study.behaviour, &study.quoted) {
+                (Behaviour::Monotone, Some(quoted)) => Cell::number(quoted.extrapolated, 6),
+                _ => format!("– ({behaviour})").into(),
+            };
             let mut row: Vec<Cell> = vec![scheme.label().into(), variant.into(), (*title).into()];
             row.extend(study.levels.iter().map(|l| Cell::number(l.value, 6)));
             row.push(number(study.observed_order, 3));
-            row.push(number(study.quoted.as_ref().map(|q| q.extrapolated), 6));
+            row.push(limit);
             row.push(Cell::number(study.band(), 2));
-            row.push(format!("{:?}", study.behaviour).to_lowercase().into());
+            row.push(behaviour.into());
             row.push(if study.is_asymptotic() { "yes" } else { "no" }.into());
             rows.push(row);
         }
@@ -188,7 +194,8 @@ fn grid_table(case: &dyn Case, runs: &[&RunRecord]) -> Option<Table> {
         id: format!("{}-grid", case.id()),
         caption: format!(
             "Solution verification: {}. The three finest sizes; Richardson extrapolation and grid \
-             convergence index with formal order 1. Oscillating values quote their range.",
+             convergence index with formal order 1. Values that do not converge monotonically have no limit; oscillating ones quote their \
+             range.",
             case.title()
         ),
         columns,
