@@ -12,9 +12,33 @@ pub fn counted(count: usize, forms: [&'static str; 2]) -> String {
     format!("{count} {}", either(count, forms))
 }
 
+/// Digits of a number in a message, unless more are needed.
+const DIGITS: usize = 6;
+
+/// A number with no more digits than a reader needs, or than tell it from another.
+#[must_use]
+pub fn told_apart(value: f64, other: f64) -> f64 {
+    // As text, so that what is shown is the shortest that reads so.
+    let rounded = |x: f64, digits: usize| format!("{x:.*e}", digits - 1).parse().unwrap_or(x);
+    let apart =
+        |digits: &usize| value == other || rounded(value, *digits) != rounded(other, *digits);
+    rounded(value, (DIGITS..MOST_DIGITS).find(apart).unwrap_or(MOST_DIGITS))
+}
+
+/// Digits that tell any two numbers apart.
+const MOST_DIGITS: usize = 17;
+
 #[cfg(test)]
 mod tests {
-    use super::counted;
+    use super::{counted, told_apart};
+
+    #[test]
+    fn numbers_have_the_digits_that_tell_them_apart() {
+        assert_eq!(told_apart(1.500_000_000_000_004, 2.0), 1.5);
+        assert_eq!(told_apart(0.1 + 0.2, 0.3), 0.1 + 0.2);
+        assert_eq!(told_apart(2.000_000_04, 2.0), 2.000_000_04);
+        assert_eq!(told_apart(0.1 + 0.2, 0.1 + 0.2), 0.3);
+    }
 
     #[test]
     fn one_is_singular_and_none_is_not() {

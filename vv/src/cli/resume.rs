@@ -3,20 +3,72 @@
 use std::path::{Path, PathBuf};
 
 use whipple_solver::space;
+use whipple_solver::units::{Dimension, Units};
 
 use super::Failure;
 use crate::checkpoint::{CheckpointError, Reader, list};
 use crate::space::checkpoint::{Halted, ResumeError, command_in, load};
+use crate::space::history::HistoryError;
+use crate::space::recorder::{FRAMES, LEDGER, Recorder};
+use crate::words::told_apart;
 
 /// The run that a checkpoint was written of; `command` is that of this run.
 pub(super) fn resume(path: &Path, scene: &space::Scene, command: &str) -> Result<Halted, Failure> {
     let halted = load(path, scene).map_err(|error| refusal(path, &error, command))?;
     let (time, stop) = (halted.simulation.time(), scene.stop_time);
     if stop < time {
-        let why = format!("it is of time {time}, wanted --stop {time} or later, not {stop}");
+        let [time, stop] = [[time, stop], [stop, time]].map(|pair| said(pair, scene.units));
+        let why = format!(
+            "its state is that of t = {time}, after --stop {stop}: wanted a later --stop, or an earlier checkpoint"
+        );
         return Err(refused(path, &why));
     }
     Ok(halted)
+}
+
+/// What a run leaves in another folder than that of its checkpoint: the ledger goes on from there, if it can. Says
+/// what does not.
+pub(super) fn carry(
+    recorder: &mut Recorder,
+    (out, path): (&Path, &Path),
+    (time, units): (f64, Units),
+    frames: bool,
+) -> Vec<String> {
+    let folder = folder_of(path);
+    let [sub, index] = FRAMES;
+    let at = format!("t = {}", said([time, 0.0], units));
+    let mut notes = Vec::new();
+    if !out.join(LEDGER).exists() {
+        let taken = recorder.take_ledger(folder, time);
+        let from = folder.join(LEDGER);
+        notes.push(match taken {
+            Ok(()) => format!("the ledger up to {at} is that of {}", from.display()),
+            Err(HistoryError::Read { .. }) => format!(
+                "the ledger begins at {at}, the time of the checkpoint: there is no {}",
+                from.display()
+            ),
+            Err(error) => {
+                format!("the ledger begins at {at}, the time of the checkpoint: {error}")
+            }
+        });
+    }
+    let earlier = folder.join(sub).join(index);
+    if frames && earlier.exists() && !out.join(sub).join(index).exists() {
+        notes.push(format!("frames of before {at} stay in {}", earlier.display()));
+    }
+    notes
+}
+
+/// A time with its unit, told from another.
+fn said([time, other]: [f64; 2], units: Units) -> String {
+    let unit = units.label(Dimension::Time);
+    format!("{} {unit}", told_apart(time, other)).trim_end().to_owned()
+}
+
+/// The folder that a checkpoint lies in.
+fn folder_of(path: &Path) -> &Path {
+    let folder = path.parent().unwrap_or(Path::new(""));
+    if folder.as_os_str().is_empty() { Path::new(".") } else { folder }
 }
 
 fn refused(path: &Path, why: &str) -> Failure {
@@ -81,9 +133,8 @@ fn instead(path: &Path) -> String {
 
 /// The newest whole checkpoint beside a path or in it, or words for it.
 fn others(path: &Path, or: &str) -> String {
-    let folder = if path.is_dir() { Some(path) } else { path.parent() };
-    let folder = folder.map(|f| if f.as_os_str().is_empty() { Path::new(".") } else { f });
-    let all = folder.and_then(|folder| list(folder).ok()).unwrap_or_default();
+    let folder = if path.is_dir() { path } else { folder_of(path) };
+    let all = list(folder).unwrap_or_default();
     let whole = |other: &PathBuf| other != path && Reader::open_any(other).is_ok();
     all.into_iter().rev().find(whole).map_or_else(
         || or.to_owned(),

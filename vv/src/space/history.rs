@@ -8,6 +8,7 @@ use whipple_solver::space::votes::Voter;
 use whipple_solver::space::{Scene, Simulation};
 
 use crate::files::{FileError, write_atomic};
+use crate::words::told_apart;
 
 /// Columns that are there once, before those of the bodies.
 const COLUMNS: [&str; 16] = [
@@ -81,9 +82,11 @@ pub enum HistoryError {
     },
     /// It ends before the state that the run goes on from.
     #[error(
-        "{} ends at time {end}, before that of the checkpoint, {time}: it is of another run of this scene; \
-         name another folder with --out",
-        path.display()
+        "{} ends at time {}, before that of the checkpoint, {}: it is of another run of this scene; name \
+         another folder with --out",
+        path.display(),
+        told_apart(*end, *time),
+        told_apart(*time, *end)
     )]
     Short {
         /// The file.
@@ -142,6 +145,12 @@ impl History {
             return Err(HistoryError::Short { path: path.to_owned(), end, time });
         }
         Ok(history)
+    }
+
+    /// The same rows, for a file at another path.
+    #[must_use]
+    pub fn at(self, path: &Path) -> Self {
+        Self { path: path.to_owned(), ..self }
     }
 
     /// Adds the present state, unless there is a row of this time.

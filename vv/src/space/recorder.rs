@@ -97,6 +97,16 @@ impl Recorder {
         })
     }
 
+    /// Takes over the ledger of a run, up to a time, from the folder in which it was made.
+    ///
+    /// # Errors
+    /// If there is none of this scene that comes so far; this run's own ledger is then as it was.
+    pub fn take_ledger(&mut self, folder: &Path, time: f64) -> Result<(), HistoryError> {
+        let earlier = History::resume(&folder.join(LEDGER), &self.scene, time)?;
+        self.ledger = earlier.at(&self.folder.join(LEDGER));
+        Ok(())
+    }
+
     /// Says in checkpoints which command makes the run.
     #[must_use]
     pub fn of(self, command: &str) -> Self {
