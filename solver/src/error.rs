@@ -19,6 +19,17 @@ impl SceneError {
         Self { key: key.into(), value: value.to_string(), wanted: wanted.to_owned() }
     }
 
+    /// A body whose material is none of a scene with these.
+    pub(crate) fn no_material<'a>(
+        body: &str,
+        wanted: &str,
+        names: impl Iterator<Item = &'a str>,
+    ) -> Self {
+        let names: Vec<String> = names.map(|name| format!("`{name}`")).collect();
+        let known = format!("no material has that name; the scene has {}", names.join(", "));
+        Self::new(format!("{body}.material"), format!("`{wanted}`"), &known)
+    }
+
     /// Checks a coefficient that may be zero but not negative, and has a largest value for a reason.
     pub(crate) fn coefficient(key: &str, value: f64, (most, why): (f64, &str)) -> Result<(), Self> {
         if (0.0..=most).contains(&value) {

@@ -324,8 +324,9 @@ impl Scene {
                 return Err(SceneError::new(key("particles"), body.particles, wanted));
             }
             let Some(index) = self.material_index(&body.material) else {
-                let wanted = "no material has that name";
-                return Err(SceneError::new(key("material"), &body.material, wanted));
+                let names = self.materials.iter().map(|material| material.name.as_str());
+                let body_key = format!("bodies.{k}");
+                return Err(SceneError::no_material(&body_key, &body.material, names));
             };
             finite(&key("from"), body.from)?;
             finite(&key("to"), body.to)?;

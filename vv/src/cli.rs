@@ -149,13 +149,7 @@ struct RunArgs {
     out: Option<PathBuf>,
     /// In three dimensions: write the state as VTU files every so often, such as 5us; `run.pvd`
     /// lists them
-    #[arg(
-        long,
-        value_name = "EVERY",
-        requires = "out",
-        conflicts_with = "godunov",
-        allow_hyphen_values = true
-    )]
+    #[arg(long, value_name = "EVERY", conflicts_with = "godunov", allow_hyphen_values = true)]
     vtu: Option<SimulatedTime>,
     /// In three dimensions: go on from this checkpoint of the same case and options; the bits are
     /// those of a run that was never stopped
@@ -166,7 +160,6 @@ struct RunArgs {
     #[arg(
         long,
         value_name = "TIME",
-        requires = "out",
         conflicts_with = "godunov",
         allow_hyphen_values = true,
         value_parser = wall_time
@@ -177,7 +170,6 @@ struct RunArgs {
     #[arg(
         long,
         value_name = "EVERY",
-        requires = "out",
         conflicts_with = "godunov",
         allow_hyphen_values = true,
         value_parser = wall_time
@@ -403,7 +395,9 @@ pub fn main() -> u8 {
     match ended {
         Ok(code) => code,
         Err(failure) => {
-            say(&format!("error: {}", as_called(&failure.message, &program())));
+            // A stop that was asked for is no error.
+            let word = if failure.code == INTERRUPTED { "note" } else { "error" };
+            say(&format!("{word}: {}", as_called(&failure.message, &program())));
             failure.code
         }
     }

@@ -89,9 +89,9 @@ impl fmt::Display for GodunovError {
                 write!(f, "gamma = {found} differs from that of the first cell, {expected}")
             }
             Self::Breakdown { cell, time } => {
-                write!(f, "no admissible state in cell {cell} at time {time}")
+                write!(f, "no admissible state in cell {cell} at t = {time:.6e}")
             }
-            Self::Stalled { time } => write!(f, "vanishing time step at time {time}"),
+            Self::Stalled { time } => write!(f, "vanishing time step at t = {time:.6e}"),
         }
     }
 }

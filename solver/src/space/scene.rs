@@ -290,6 +290,19 @@ impl Shape {
         }
     }
 
+    /// What it is given by, with keys.
+    fn lengths(&self) -> Vec<(&'static str, f64)> {
+        match *self {
+            Self::Box { size: [a, b, c] } => {
+                vec![("box.size.0", a), ("box.size.1", b), ("box.size.2", c)]
+            }
+            Self::Cylinder { diameter, length } => {
+                vec![("cylinder.diameter", diameter), ("cylinder.length", length)]
+            }
+            Self::Sphere { diameter } => vec![("sphere.diameter", diameter)],
+        }
+    }
+
     /// Edge lengths of the smallest box around it.
     #[must_use]
     pub fn extent(&self) -> [f64; 3] {
@@ -346,8 +359,8 @@ impl Scene {
         for (k, body) in self.bodies.iter().enumerate() {
             let key = format!("bodies.{k}");
             let Some(material) = self.material_index(&body.material) else {
-                let wanted = "no material has that name";
-                return Err(SceneError::new(format!("{key}.material"), &body.material, wanted));
+                let names = self.materials.iter().map(|material| material.name.as_str());
+                return Err(SceneError::no_material(&key, &body.material, names));
             };
             particles = particles.saturating_add(body.validate(self.method.balance, &key)?);
             if body.mapping.is_some() && self.method.density != Density::Hybrid {
@@ -488,11 +501,13 @@ impl Body {
             }
         }
         for axis in 0..3 {
-            positive(&format!("{key}.shape"), self.shape.extent()[axis])?;
             finite(&format!("{key}.centre.{axis}"), self.centre[axis])?;
             finite(&format!("{key}.velocity.{axis}"), self.velocity[axis])?;
             finite(&format!("{key}.spin.{axis}"), self.spin[axis])?;
             finite(&format!("{key}.turn.axis.{axis}"), self.turn.axis[axis])?;
+        }
+        for (name, length) in self.shape.lengths() {
+            positive(&format!("{key}.shape.{name}"), length)?;
         }
         positive(&format!("{key}.turn.axis"), self.turn.axis.iter().map(|a| a * a).sum())?;
         finite(&format!("{key}.turn.degrees"), self.turn.degrees)?;

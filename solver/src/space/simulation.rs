@@ -21,6 +21,7 @@ use crate::counters::Counters;
 use crate::error::{SceneError, StepError};
 use crate::method::{Density, Integrator};
 use crate::timestep::SMALLEST_STEP;
+use crate::units::Dimension;
 
 /// Largest growth of the time step.
 const GROWTH: f64 = 1.05;
@@ -83,6 +84,22 @@ pub struct Simulation {
     instructions: Instructions,
     pub(super) asleep: bool,
     pub(super) volumes: bool,
+}
+
+/// Two bodies that begin so near to each other that springs between them would begin compressed.
+fn too_near(scene: &Scene, [body, other]: [usize; 2], [distance, least]: [f64; 2]) -> SceneError {
+    let name = |body: usize| &scene.bodies[body].name;
+    let unit = match scene.units.label(Dimension::Length) {
+        "" => String::new(),
+        unit => format!(" {unit}"),
+    };
+    let value = format!("that of `{}`, {distance:.3e}{unit} from `{}`", name(body), name(other));
+    let wanted = format!(
+        "bodies must be at least {least:.3e}{unit} apart, an eighth of a cell: move one of them away by \
+         {:.3e}{unit} or more, or take smaller cells",
+        least - distance
+    );
+    SceneError::new(format!("bodies.{body}.centre"), value, &wanted)
 }
 
 /// Longest step in which no particles of two bodies, at the speeds of the start, come nearer by more than half of the
@@ -183,12 +200,10 @@ impl Simulation {
         }
         simulation.respond(simulation.end());
         simulation.touch(&mut |_| {});
-        if let Some((body, [distance, least])) =
+        if let Some((bodies, [distance, least])) =
             simulation.surfaces.too_close(&simulation.mesh, &simulation.contacts)
         {
-            let key = format!("bodies.{body}.centre");
-            let wanted = format!("bodies apart by at least {least:.3e}: an eighth of a cell");
-            return Err(SceneError::new(key, format!("{distance:.3e} from another body"), &wanted));
+            return Err(too_near(scene, bodies, [distance, least]));
         }
         simulation.active =
             (0..simulation.mesh.pieces.len()).map(|p| simulation.stirs(p)).collect();

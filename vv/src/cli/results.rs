@@ -218,6 +218,41 @@ const ANGULAR: &str = "angular momentum drift";
 const RESIDUAL: &str = "residual of elements";
 const GEOMETRY: &str = "error of the meshed mass";
 
+/// What stands for a norm that is none.
+const NO_NUMBER: &str = "no number";
+
+/// Ends of the names of norms, and the units that they say; of those that fit the longest counts.
+const UNITS: [(&str, &str); 13] = [
+    ("_cm", "cm"),
+    ("_mm", "mm"),
+    ("_us", "µs"),
+    ("_cm_us", "cm/µs"),
+    ("_g_cm_us", "g·cm/µs"),
+    ("_m_s", "m/s"),
+    ("_km_s", "km/s"),
+    // Of waves in solids, whose scenes have units.
+    ("_speed", "km/s"),
+    ("_g", "g"),
+    ("_deg", "°"),
+    ("_khz", "kHz"),
+    ("_cells", "cells"),
+    ("_spacings", "spacings"),
+];
+
+/// Unit of a norm, if it has one: what its name says, or what the title says that the report gives it.
+fn unit_of(case: &dyn Case, norm: &str) -> Option<&'static str> {
+    let fits = UNITS.iter().filter(|(end, _)| norm.ends_with(end));
+    let named = fits.max_by_key(|(end, _)| end.len()).map(|(_, unit)| *unit);
+    named.or_else(|| {
+        let (_, title) = case.tabulated().iter().find(|(name, _)| *name == norm)?;
+        // Units alone have a stroke: what else stands behind a comma is words.
+        title
+            .rsplit_once(", ")
+            .map(|(_, end)| end)
+            .filter(|end| end.contains('/') && !end.contains(' '))
+    })
+}
+
 /// The numbers of a run, a line each, with what is wanted of them.
 pub(super) fn text(bounds: &Bounds, record: &RunRecord) -> String {
     let case = bounds.case;
@@ -237,10 +272,14 @@ pub(super) fn text(bounds: &Bounds, record: &RunRecord) -> String {
         // One that fails has the digits that show it.
         let failing = own().filter(|v| v.status == Status::Fail && !bounds.is_changed());
         let value = failing.map(|v| v.found(5)).max_by_key(String::len).unwrap_or(value);
+        let value = match unit_of(case, name) {
+            Some(unit) if value != NO_NUMBER => format!("{value} {unit}"),
+            _ => value,
+        };
         if wanted.is_empty() {
             wanted.extend(bounds.elsewhere(name));
         }
-        let line = format!("  {name:<28} {value:<12} {}", wanted.join("; "));
+        let line = format!("  {name:<28} {value:<16} {}", wanted.join("; "));
         out += line.trim_end();
         out += "\n";
     };
@@ -249,7 +288,7 @@ pub(super) fn text(bounds: &Bounds, record: &RunRecord) -> String {
         row(
             name,
             match value {
-                value if value.is_nan() => "no number".into(),
+                value if value.is_nan() => NO_NUMBER.into(),
                 value if counted => value.to_string(),
                 value => sig(*value, 5),
             },

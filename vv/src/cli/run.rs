@@ -9,9 +9,9 @@ use whipple_solver::units::{Dimension, Units};
 use super::folder::{clear, refuse_another_run};
 use super::progress::{Outlook, Progress};
 use super::results::{Bounds, json, text, write_outputs};
-use super::resume::{refusal, resume};
+use super::resume::{self, refusal, resume};
 use super::sizes::{cannot, foresee};
-use super::{Failure, INTERRUPTED, NUMERICAL_FAILURE, RunArgs, as_called, print, program, say};
+use super::{Failure, INTERRUPTED, NUMERICAL_FAILURE, RunArgs, print, say};
 use crate::cases::{self, Case};
 use crate::files::ensure_writable_dir;
 use crate::keys;
@@ -23,6 +23,7 @@ use crate::scene::AnyScene;
 use crate::space::recorder::Recorder;
 use crate::suggest::did_you_mean;
 use crate::suite::{command_of, scene_of};
+use crate::words::counted;
 
 /// Runs a case as the arguments say.
 pub(super) fn run(args: &RunArgs) -> Result<u8, Failure> {
@@ -39,6 +40,7 @@ pub(super) fn run(args: &RunArgs) -> Result<u8, Failure> {
     let progress = Progress::new(outlook);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(args.threads).build();
     let pool = pool.map_err(|e| Failure::usage(format!("cannot start threads: {e}")))?;
+    notes.extend(note_threads(args.threads));
     // Not before a refusal.
     notes.iter().for_each(|note| say(&format!("note: {note}")));
     progress.start(case.id(), unit);
@@ -47,16 +49,10 @@ pub(super) fn run(args: &RunArgs) -> Result<u8, Failure> {
     progress.done();
     let done = match done {
         Err(RunError::Interrupted { checkpoint }) => {
-            let late = progress.is_late();
-            let why = if late { "--max-wall is over" } else { "interrupted" };
+            let why = if progress.is_late() { "--max-wall is over" } else { "interrupted" };
             let space = matches!(scene, Some(AnyScene::Space(_)));
             let next = space.then(|| how_to_go_on(args, &command, checkpoint.as_deref()));
             let message = format!("{why}{}", next.unwrap_or_default());
-            // A stop that was asked for beforehand is no error, if the run can go on from it.
-            if late && checkpoint.is_some() {
-                say(&as_called(&format!("note: {message}"), &program()));
-                return Ok(INTERRUPTED);
-            }
             return Err(Failure { code: INTERRUPTED, message });
         }
         Err(RunError::Resume(error)) => {
@@ -121,13 +117,18 @@ fn options(
                 clear(out)?;
             }
             let recorder = Recorder::new(out, scene, every, from.as_ref());
-            let recorder = recorder.map_err(Failure::usage)?.of(command);
+            let mut recorder = recorder.map_err(Failure::usage)?.of(command);
+            if let (Some(path), Some(halted)) = (&args.resume, &from) {
+                let time = (halted.simulation.time(), scene.units);
+                notes.extend(resume::carry(&mut recorder, (out, path), time, every.is_some()));
+            }
             Some(match args.checkpoint {
                 Some(every) => recorder.keeping(every),
                 None => recorder,
             })
         }
         None => {
+            refuse_without_folder(args)?;
             let note =
                 "nothing of this run is kept without --out: no record, pictures or checkpoint";
             notes.push(note.to_owned());
@@ -141,6 +142,31 @@ fn options(
     };
     let pictures = recorder.is_some();
     Ok((SpaceOptions { from, recorder, pictures }, outlook))
+}
+
+/// Refuses options that say what to leave in a folder where none is named.
+fn refuse_without_folder(args: &RunArgs) -> Result<(), Failure> {
+    let given = [
+        ("--vtu", args.vtu.is_some(), "the frames"),
+        ("--max-wall", args.max_wall.is_some(), "the checkpoint that the run goes on from"),
+        ("--checkpoint", args.checkpoint.is_some(), "the checkpoints"),
+    ];
+    given.into_iter().find(|(_, given, _)| *given).map_or(Ok(()), |(option, _, what)| {
+        let message = format!(
+            "{option} needs a folder for {what}: add --out DIR, such as --out out/{}",
+            args.case
+        );
+        Err(Failure::usage(message))
+    })
+}
+
+/// Mentions more threads than the machine can run at once.
+fn note_threads(threads: usize) -> Option<String> {
+    let most = std::thread::available_parallelism().ok()?.get();
+    (threads > most).then(|| {
+        let processors = counted(most, ["processor", "processors"]);
+        format!("--threads {threads} are more than the {processors} of this machine, and slower than --threads {most}")
+    })
 }
 
 /// Where a run that was stopped stands, and the command that continues it.

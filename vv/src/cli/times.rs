@@ -62,7 +62,10 @@ impl SimulatedTime {
         let label = units.label(Dimension::Time);
         let own = UNITS.iter().find(|(name, _)| *name == label);
         let Some((_, own)) = own else {
-            let message = format!("{option}: the scene has no unit of time, wanted a plain number");
+            let message = format!(
+                "{option} {self}: the scene has no unit of time, wanted a plain number, such as `{option} {}`",
+                self.value
+            );
             return Err(Failure::usage(message));
         };
         let value = match power - own {
@@ -70,7 +73,8 @@ impl SimulatedTime {
             smaller => self.value / 10f64.powi(-smaller),
         };
         let usable = value.is_finite() && value > 0.0;
-        if usable { Ok(value) } else { Err(Failure::usage(format!("{option}: {WANTED}"))) }
+        let refused = || format!("{option} {self}: {WANTED}; the unit of this scene is {label}");
+        if usable { Ok(value) } else { Err(Failure::usage(refused())) }
     }
 }
 
@@ -116,7 +120,9 @@ mod tests {
             assert_eq!(time(text, Units::CmGUsMbar), Err(WANTED.to_owned()), "{text}");
         }
         let said = time("1s", Units::None).unwrap_err();
-        assert_eq!(said, "--stop: the scene has no unit of time, wanted a plain number");
+        let wanted =
+            "--stop 1s: the scene has no unit of time, wanted a plain number, such as `--stop 1`";
+        assert_eq!(said, wanted);
         assert!(time("1e308s", Units::CmGUsMbar).is_err());
     }
 }

@@ -20,6 +20,7 @@ use crate::record::{Outcome, PictureRecord, RunRecord, SpaceRecord};
 use crate::space::checkpoint::{Halted, ResumeError};
 use crate::space::measured::{Look, Measured, Photo};
 use crate::space::recorder::{OutputError, Recorder};
+use crate::words::told_apart;
 
 /// Steps between two looks at the clock and the interrupt flag; a step takes milliseconds.
 const STEPS_PER_LOOK: u64 = 16;
@@ -160,7 +161,7 @@ impl<'a> SpaceDriver<'a> {
     fn drop_last_look(&mut self) -> Result<(), RunError> {
         let left = &self.measured.looks[self.taken..self.kept];
         match left.iter().find(|look| look.time < self.solver.time()) {
-            Some(look) => Err(other_looks(at(look.time), "no look at this time").into()),
+            Some(look) => Err(other_looks(at(look.time, self.now), "no look at this time").into()),
             None => {
                 self.measured.looks.drain(self.taken..self.kept);
                 self.kept = self.taken;
@@ -182,13 +183,13 @@ impl<'a> SpaceDriver<'a> {
         if self.taken < self.kept {
             let look = &self.measured.looks[self.taken];
             if look.time.to_bits() != self.now.to_bits() {
-                return Err(other_looks(at(look.time), &at(self.now)).into());
+                return Err(other_looks(at(look.time, self.now), &at(self.now, look.time)).into());
             }
             self.taken += 1;
             return Ok(look.values.clone());
         }
         if self.ahead.is_some() {
-            return Err(other_looks("no more looks".to_owned(), &at(self.now)).into());
+            return Err(other_looks("no more looks".to_owned(), &at(self.now, 0.0)).into());
         }
         let balance = self.weigh();
         let values = find(&self.solver, &balance);
@@ -276,9 +277,9 @@ impl<'a> SpaceDriver<'a> {
     }
 }
 
-/// A look, in words.
-fn at(time: f64) -> String {
-    format!("a look at {time:?}")
+/// A look, in words, told from one at another time.
+fn at(time: f64, other: f64) -> String {
+    format!("a look at {:?}", told_apart(time, other))
 }
 
 /// A checkpoint of a run that looked at other times.

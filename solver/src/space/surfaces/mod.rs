@@ -72,13 +72,17 @@ impl Surfaces {
 
     /// The first point that stands too close to a surface to feel it: its body, distance, and what
     /// that must be.
-    pub fn too_close(&mut self, mesh: &Mesh, contacts: &Contacts) -> Option<(usize, [f64; 2])> {
+    pub fn too_close(
+        &mut self,
+        mesh: &Mesh,
+        contacts: &Contacts,
+    ) -> Option<([usize; 2], [f64; 2])> {
         let mut first = None;
         self.look((mesh, contacts), |spring| {
-            let body = usize::from(spring.bodies[0]);
-            let least = CLOSE * STAND * mesh.bodies[body].edge();
+            let bodies = spring.bodies.map(usize::from);
+            let least = CLOSE * STAND * mesh.bodies[bodies[0]].edge();
             if spring.past.distance < 0.99 * least {
-                first.get_or_insert((body, [spring.past.distance, least]));
+                first.get_or_insert((bodies, [spring.past.distance, least]));
             }
         });
         first
