@@ -1,4 +1,4 @@
-//! Counts in sentences.
+//! Counts and numbers in sentences.
 
 /// The form of a word, or of some, that goes with a count: that of one, or of any other number.
 #[must_use]

@@ -272,6 +272,30 @@ mod tests {
         })
     }
 
+    /// The limit and the behaviour in the row of the hole, of holes at the three sizes of `rcc-plate`.
+    fn limit(holes: [f64; 3]) -> [String; 2] {
+        let case = crate::cases::find("rcc-plate").expect("the case");
+        let runs: Vec<RunRecord> = [4, 6, 8]
+            .into_iter()
+            .zip(holes)
+            .map(|(n, hole)| {
+                let scheme = Scheme::preset(whipple_solver::method::Preset::Default);
+                let mut record = blank(RunKey::new("rcc-plate", scheme, n), 1, String::new());
+                record.norms.insert("hole_diameter_cm".into(), hole);
+                record
+            })
+            .collect();
+        let table = grid_table(case, &runs.iter().collect::<Vec<_>>()).expect("a table");
+        [7, 9].map(|column| table.rows[0][column].text.clone())
+    }
+
+    #[test]
+    fn what_does_not_converge_has_no_limit() {
+        assert_eq!(limit([2.0, 2.2, 2.3]), ["2.60000", "monotone"]);
+        assert_eq!(limit([2.0, 2.2, 2.5]), ["– (diverging)", "diverging"]);
+        assert_eq!(limit([2.0, 2.2, 2.1]), ["– (oscillatory)", "oscillatory"]);
+    }
+
     #[test]
     fn missing_runs_are_counted() {
         assert_eq!(said(0), None);

@@ -1,32 +1,82 @@
 //! Title, time, scale bar, colour bar and legend as SVG.
 
 use super::PaintError;
+use super::camera::View;
 use super::layout::{Layout, TEXT};
 use super::picture::{Colouring, Field, Length, Picture};
+use super::resolve::SAMPLES;
 use super::text::{self, Face};
 use super::ticks::{number, round_down, ticks};
 use std::fmt::Write as _;
 
+/// Length of the head of an arrow.
+const HEAD: f64 = 34.0;
+
 /// Stops of the gradient in a colour bar.
 const STOPS: u32 = 60;
 
-/// All that stands around the scene; `scale` is in pixels per length of the model.
+/// All that stands around the scene, and the arrow over it.
 pub(super) fn annotation(
     picture: &Picture,
     layout: &Layout,
-    scale: f64,
+    view: &View,
     (range, beyond): ((f64, f64), (bool, bool)),
 ) -> Result<String, PaintError> {
     let ink = hex(picture.theme.ink());
     let mut svg = format!("<g fill=\"{ink}\">\n");
     heading(&mut svg, picture, layout)?;
-    scale_bar(&mut svg, &picture.length, layout, scale);
+    // In pixels per length of the model.
+    scale_bar(&mut svg, &picture.length, layout, view.scale / SAMPLES as f64);
     match &picture.colouring {
         Colouring::Field(field) => colour_bar(&mut svg, field, layout, (range, beyond), &ink),
         Colouring::Classes(_) => legend(&mut svg, layout),
     }
     svg.push_str("</g>\n");
+    if let Some(ends) = picture.arrow {
+        arrow(&mut svg, ends.map(|end| pixel(end, layout, view)), picture, layout.unit);
+    }
     Ok(svg)
+}
+
+/// Where a point of the model is in the picture.
+fn pixel(point: [f64; 3], layout: &Layout, view: &View) -> (f64, f64) {
+    let [x, y, _] = view.project(point).map(|samples| f64::from(samples) / SAMPLES as f64);
+    (x, y + f64::from(layout.scene.0))
+}
+
+/// An arrow from its tail to its head, with a rim of paper against what lies below.
+fn arrow(svg: &mut String, [tail, head]: [(f64, f64); 2], picture: &Picture, u: f64) {
+    let way = (head.0 - tail.0, head.1 - tail.1);
+    let length = way.0.hypot(way.1);
+    // One that points at the eye has no direction in the picture.
+    if length < 2.0 * HEAD * u {
+        return;
+    }
+    let (along, across) = ((way.0 / length, way.1 / length), (-way.1 / length, way.0 / length));
+    let at = |back: f64, aside: f64| {
+        let x = head.0 - back * along.0 + aside * across.0;
+        let y = head.1 - back * along.1 + aside * across.1;
+        format!("{x:.1} {y:.1}")
+    };
+    let (back, half, shaft) = (HEAD * u, 0.4 * HEAD * u, 0.11 * HEAD * u);
+    let corners = [
+        at(0.0, 0.0),
+        at(back, half),
+        at(back, shaft),
+        at(length, shaft),
+        at(length, -shaft),
+        at(back, -shaft),
+        at(back, -half),
+    ];
+    let _ = writeln!(
+        svg,
+        "<path fill=\"{}\" stroke=\"{}\" stroke-width=\"{:.2}\" stroke-linejoin=\"round\" \
+         paint-order=\"stroke\" d=\"M{}z\"/>",
+        hex(picture.theme.ink()),
+        hex(picture.theme.paper()),
+        4.0 * u,
+        corners.join("L")
+    );
 }
 
 /// Title on the left and time on the right; a long title is set smaller.

@@ -134,8 +134,7 @@ pub fn paint(model: &Model, picture: &Picture) -> Result<Vec<u8>, PaintError> {
     };
     let paper = picture.theme.paper();
     let range = tones.range.unwrap_or((0.0, 1.0));
-    let scale = view.scale / SAMPLES as f64;
-    let svg = annotate::annotation(picture, &layout, scale, (range, beyond(model, range)))?;
+    let svg = annotate::annotation(picture, &layout, &view, (range, beyond(model, range)))?;
     let exact = [paper, picture.theme.ink()];
     encode::smallest_loss(picture.max_bytes, |step| {
         let tones = &tones.colours;
@@ -170,6 +169,9 @@ fn extent(
             let turned = half_axes.map(|a| axes.turn(a));
             let half = [0, 1, 2].map(|i| turned.iter().map(|a| a[i] * a[i]).sum::<f64>().sqrt());
             extent.add(axes.turn(*centre), half);
+        }
+        for end in picture.arrow.iter().flatten() {
+            extent.add(axes.turn(*end), [0.0; 3]);
         }
     }
     let (width, height) = extent.size();

@@ -55,6 +55,9 @@ pub struct Picture {
     pub colouring: Colouring,
     /// Whether to draw the edges of elements.
     pub edges: bool,
+    /// Tail and head of an arrow over the scene, in the length unit of the model, such as the way that something
+    /// flies; it is shown whole unless the camera has a frame.
+    pub arrow: Option<[[f64; 3]; 2]>,
     /// Heading; may be empty.
     pub title: String,
     /// Time of the state, such as `t = 40 µs`; may be empty.
@@ -77,6 +80,7 @@ impl Picture {
             section: None,
             colouring,
             edges: true,
+            arrow: None,
             title: String::new(),
             time: String::new(),
             length: Length { unit: String::new(), factor: 1.0 },

@@ -163,8 +163,10 @@ pub fn shoot(
         unit => unit,
     };
     let unit = unit.to_owned();
+    let before = simulation.time() == 0.0 && shot.section.is_none();
     let light = Picture {
         section: shot.section,
+        arrow: flight(scene).filter(|_| before),
         title: shot.title.clone(),
         time: time(simulation.time(), scene.units),
         length: Length { unit, factor: 1.0 },
@@ -185,6 +187,27 @@ pub fn shoot(
     Ok([paint(&model, &light)?, paint(&model, &dark)?])
 }
 
+/// Length of the arrow behind what flies, and its distance from it, over the shortest edge of a box round it.
+const ARROW: [f64; 2] = [2.0, 0.2];
+
+/// Tail and head of an arrow that points along the way of the first body at its rear, if it flies at one at rest.
+fn flight(scene: &Scene) -> Option<[[f64; 3]; 2]> {
+    let (first, others) = scene.bodies.split_first()?;
+    let speed = first.velocity.iter().map(|v| v * v).sum::<f64>().sqrt();
+    let hits = others.iter().any(|body| body.velocity == [0.0; 3]);
+    if !hits || speed == 0.0 {
+        return None;
+    }
+    let extent = first.shape.extent();
+    let [longest, shortest] =
+        [f64::max, f64::min].map(|pick| extent[1..].iter().copied().fold(extent[0], pick));
+    let behind = |distance: f64| -> [f64; 3] {
+        std::array::from_fn(|d| first.centre[d] - distance * first.velocity[d] / speed)
+    };
+    let head = 0.5 * longest + ARROW[1] * shortest;
+    Some([behind(head + ARROW[0] * shortest), behind(head)])
+}
+
 /// The time of a state, as the picture says it.
 fn time(time: f64, units: Units) -> String {
     // Four digits, but all before the point.
@@ -197,6 +220,26 @@ fn time(time: f64, units: Units) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use whipple_solver::method::Preset;
+
+    /// The arrow ends behind the sphere, on its way; two cubes that meet have none, nor has a body alone.
+    #[test]
+    fn arrows_follow_what_flies_at_a_body_at_rest() {
+        let scene = crate::cases::find("rcc-plate").expect("a case").scene(Preset::Default, "", 4);
+        let mut scene = scene.space().expect("in space").clone();
+        let [tail, head] = flight(&scene).expect("an arrow");
+        let sphere = &scene.bodies[0];
+        let way: [f64; 3] = std::array::from_fn(|d| head[d] - tail[d]);
+        let turned = [way[1] * sphere.velocity[0], way[0] * sphere.velocity[1]];
+        assert!((turned[0] - turned[1]).abs() < 1e-12 && way[1] > 0.0, "{way:?}");
+        let off = (0..3).map(|d| (head[d] - sphere.centre[d]).powi(2)).sum::<f64>().sqrt();
+        let radius = 0.5 * sphere.shape.extent()[0];
+        assert!(radius < off && off < 2.0 * radius, "{off}");
+        scene.bodies[1].velocity = [0.0, -0.1, 0.0];
+        assert_eq!(flight(&scene), None);
+        scene.bodies.truncate(1);
+        assert_eq!(flight(&scene), None);
+    }
 
     #[test]
     fn times_have_four_digits_and_all_before_the_point() {

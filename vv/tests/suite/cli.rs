@@ -129,6 +129,35 @@ fn options_of_a_case_choose_its_variant() {
     }
 }
 
+/// More threads than the machine has processors are told, and run all the same.
+#[test]
+fn threads_beyond_the_machine_are_told() {
+    let said = said(folder().path(), &["run", "noh", "--n", "20", "--threads", "1000"]);
+    assert_eq!(said.code, Some(0), "{}", said.err);
+    assert!(said.err.starts_with("note: --threads 1000 are more than the "), "{}", said.err);
+}
+
+/// Bodies that begin too near are named, with units and what to do; so are materials that there are.
+#[test]
+fn scenes_that_cannot_be_are_refused_with_names() {
+    let near =
+        refusal(&["run", "rcc-plate", "--n", "2", "--set", "bodies.0.centre=[0.0,-0.309,0.0]"]);
+    let [begin, end] =
+        ["error: `bodies.0.centre` is that of `sphere`, ", " cm or more, or take smaller cells\n"];
+    assert!(near.contains(begin) && near.ends_with(end), "{near}");
+    assert!(near.contains(" cm from `plate`, but bodies must be at least "), "{near}");
+    let rod = |set: &str| refusal(&["run", "long-rod", "--set", set]);
+    let other = rod("bodies.0.material=tungsten");
+    let names =
+        "is `tungsten`, but no material has that name; the scene has `tungsten alloy`, `steel`\n";
+    assert!(other.ends_with(names), "{other}");
+    let flat = rod("bodies.1.shape.box.size.1=0.0");
+    assert!(
+        flat.ends_with("`bodies.1.shape.box.size.1` is 0, but it must be positive\n"),
+        "{flat}"
+    );
+}
+
 /// The record says which density ran, whichever option chose it, and a case named twice runs once.
 #[test]
 fn records_say_what_ran() {
@@ -292,7 +321,12 @@ fn run_shows_what_is_wanted() {
     };
     let kolsky = ["kolsky", "--n", "101"];
     let plateau = row(&kolsky, "plateau");
-    assert!(plateau.contains("exact 337.87 ± ") && plateau.ends_with(": pass"), "{plateau}");
+    assert!(
+        plateau.contains(" in/s ")
+            && plateau.contains("exact 337.87 ± ")
+            && plateau.ends_with(": pass"),
+        "{plateau}"
+    );
     let drift = row(&kolsky, "energy drift");
     assert!(drift.ends_with("wanted ≤ 1.000×10⁻¹²: pass"), "{drift}");
     let changed = [&kolsky[..], &["--set", "cfl=0.1"]].concat();
@@ -302,6 +336,21 @@ fn run_shows_what_is_wanted() {
     assert!(note.contains("is of the case as it stands, and not judged here"), "{note}");
     let alone = row(&["noh", "--n", "37"], "No claim");
     assert_eq!(alone, "No claim is made of this run alone; `whipple list noh` has all claims.");
+    // What variants and sizes without a claim are held against is known to their case.
+    let soft = ["rcc-plate", "--n", "2", "--stop", "0.01us", "--angle", "30", "--eos", "rcc_soft"];
+    let hole = row(&soft, "hole_diameter_cm");
+    assert!(hole.contains(" cm ") && hole.contains(" NASA's equation 3."), "{hole}");
+    let printed = ["long-rod", "--n", "7", "--preset", "paper", "--stop", "0.01us"];
+    let length = row(&printed, "residual_length_cm");
+    assert!(
+        length.contains(" cm ") && length.ends_with(" experiment 6.3800; paper, Table 5: 6.4700"),
+        "{length}"
+    );
+    let claimed = row(&["rcc-plate", "--n", "4", "--stop", "0.01us"], "hole_diameter_cm");
+    assert!(
+        claimed.contains(" NASA's equation 2.8") && claimed.ends_with(" ± 15.0 %"),
+        "{claimed}"
+    );
     // The value is that of any size.
     let plateau = row(&["kolsky", "--n", "61"], "plateau");
     assert!(plateau.ends_with(" exact 337.87"), "{plateau}");

@@ -339,10 +339,21 @@ fn checkpoints_are_written_along_the_way() {
     fs::remove_dir_all(&plain).expect("it goes away");
     let from = format!("often/{earlier}");
     assert!(Reader::open_any(&at.join(&from)).expect("a checkpoint").meta().time < 2.0);
-    fs::create_dir(&plain).expect("a folder");
-    fs::copy(at.join("often/ledger.csv"), plain.join("ledger.csv")).expect("a copy");
-    assert_well(&rod(at, &["--stop", "2", "--out", "plain", "--resume", &from]));
+    // In another folder the ledger goes along with the run.
+    let resumed = rod(at, &["--stop", "2", "--out", "plain", "--resume", &from]);
+    assert_well(&resumed);
+    assert!(resumed.err.contains("is that of often/ledger.csv\n"), "{}", resumed.err);
     assert_same_run(&plain, &often);
+    // Without one beside the checkpoint it begins with that, which is said.
+    fs::create_dir(at.join("alone")).expect("a folder");
+    fs::copy(at.join(&from), at.join("alone/kept.whp")).expect("a copy");
+    let resumed = rod(at, &["--stop", "2", "--out", "bare", "--resume", "alone/kept.whp"]);
+    assert_well(&resumed);
+    assert!(resumed.err.contains("note: the ledger begins at t = "), "{}", resumed.err);
+    assert!(resumed.err.contains("there is no alone/ledger.csv\n"), "{}", resumed.err);
+    let ledgers = [&plain, &at.join("bare")]
+        .map(|folder| fs::read_to_string(folder.join("ledger.csv")).expect("a ledger"));
+    assert!(ledgers[1].lines().count() < ledgers[0].lines().count());
 }
 
 /// Ctrl-C does the same; a second one is not needed.
@@ -367,8 +378,8 @@ fn interrupt_leaves_a_run_that_goes_on() {
     assert!(sent.success());
     let stopped = Said::from(child.wait_with_output().expect("it ends"));
     assert_eq!(stopped.code, Some(130), "{}", stopped.err);
-    let kept = "error: interrupted; the state is kept in out/checkpoint-000001.whp; continue with";
-    assert!(errors(&stopped).starts_with(kept), "{}", stopped.err);
+    let kept = "note: interrupted; the state is kept in out/checkpoint-000001.whp; continue with\n";
+    assert!(stopped.err.contains(kept) && !stopped.err.contains("error"), "{}", stopped.err);
     let checkpoint = at.join("out/checkpoint-000001.whp");
     let time = Reader::open_any(&checkpoint).expect("a checkpoint").meta().time;
     assert!(0.0 < time && time < 100.0, "{time}");
@@ -507,6 +518,7 @@ fn runs_that_cannot_go_on_are_refused() {
         (&["run", "long-rod"], &["--out", "new", "--max-wall", "0s"]),
         (&["run", "long-rod"], &["--vtu", "5us"]),
         (&["run", "long-rod"], &["--max-wall", "1min"]),
+        (&["run", "long-rod"], &["--checkpoint", "1min"]),
         (&["run", "long-rod"], &["--godunov", "--resume", "whole.whp"]),
     ] {
         let said = said(at, &[case, args].concat());

@@ -18,7 +18,8 @@ pub(super) const WISHES: [Wish; 4] = [
         time: 0.0,
         id: "long-rod-start",
         title: "Elements before the impact",
-        caption: "Elements of rod and plate before the impact (the paper's Figure 7); n = 5, `default`.",
+        caption: "Elements of rod and plate before the impact (the paper's Figure 7); the arrow is the way of the rod. \
+                  n = 5, `default`.",
         section: false,
         shown: Shown::Body,
         outside: Some(OUTSIDE),

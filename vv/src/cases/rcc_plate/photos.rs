@@ -19,8 +19,8 @@ pub(super) const WISHES: [Wish; 5] = [
         time: 0.0,
         id: "rcc-plate-start",
         title: "Elements before the impact",
-        caption: "Elements of sphere and plate before the impact (the paper's Figure 11); n = 4, \
-                  `default`, as all pictures of this case.",
+        caption: "Elements of sphere and plate before the impact (the paper's Figure 11); the arrow is the way of the \
+                  sphere. n = 4, `default`, as all pictures of this case.",
         section: false,
         outside: Some(OUTSIDE),
         shown: Shown::Body,
