@@ -95,9 +95,8 @@ fn too_near(scene: &Scene, [body, other]: [usize; 2], [distance, least]: [f64; 2
     };
     let value = format!("that of `{}`, {distance:.3e}{unit} from `{}`", name(body), name(other));
     let wanted = format!(
-        "bodies must be at least {least:.3e}{unit} apart, an eighth of a cell: move one of them away by \
-         {:.3e}{unit} or more, or take smaller cells",
-        least - distance
+        "bodies must be at least {least:.3e}{unit} apart, an eighth of a cell: move one of them away, or take \
+         smaller cells"
     );
     SceneError::new(format!("bodies.{body}.centre"), value, &wanted)
 }

@@ -279,7 +279,7 @@ pub(super) fn text(bounds: &Bounds, record: &RunRecord) -> String {
         if wanted.is_empty() {
             wanted.extend(bounds.elsewhere(name));
         }
-        let line = format!("  {name:<28} {value:<16} {}", wanted.join("; "));
+        let line = format!("  {name:<30} {value:<16} {}", wanted.join("; "));
         out += line.trim_end();
         out += "\n";
     };
