@@ -25,6 +25,7 @@ pub mod spin;
 pub mod strength;
 mod surfaces;
 pub mod sweep;
+pub mod symmetric;
 pub mod volumes;
 pub mod votes;
 pub mod walls;

@@ -3,11 +3,12 @@
 
 use rayon::prelude::*;
 
-use super::shape::{Arms, Meeting, Normals, Pair, Shape, Spheres};
+use super::shape::{Arms, Meeting, Normals, Pair, Shape, Spheres, Torque, Torsion};
 use super::{BLOCK, Contacts};
 use crate::method::Viscosity;
 use crate::space::columns::{Derived, State, Sums};
 use crate::space::kernel::Kernel;
+use crate::space::lattice::dot;
 use crate::space::mesh::Mesh;
 use crate::space::method::Method;
 use crate::space::near::{PairList, put};
@@ -21,14 +22,10 @@ const DEEPEST: f64 = 0.8;
 /// damped by more than twice that, of which leapfrog bears two.
 const BEARABLE: f64 = 0.9;
 
-/// A pair in contact in this step.
+/// A pair in contact in this step: what takes long to find again. Loops over contacts wait for memory.
 #[derive(Debug, Clone, Copy)]
-pub struct Active<N> {
-    pair: Pair,
-    /// From the second to the first.
-    r: [f64; 3],
-    /// What ellipsoids have besides.
-    normals: N,
+pub struct Active<T> {
+    members: [u32; 2],
     /// `3/8 rho_o g` of each: density rate per closing rate of `zeta^2 / 2`, in units of its meeting.
     row: [f64; 2],
     /// Pressure force over separation, and its share of the first particle.
@@ -37,16 +34,18 @@ pub struct Active<N> {
     drag: f64,
     /// Heat flux from the first to the second.
     flux: f64,
+    /// Viscous torque, of ellipsoids.
+    torque: T,
 }
 
 /// Pairs in contact, block by block of the list.
-type Blocks<N> = Vec<Vec<Active<N>>>;
+type Blocks<T> = Vec<Vec<Active<T>>>;
 
 /// What contacts of the particles of a scene do: of spheres, or where some are ellipsoids.
 #[derive(Debug, Clone)]
 pub(super) enum Forces {
     Spheres(Blocks<()>),
-    Ellipsoids(Blocks<Arms>, Spins),
+    Ellipsoids(Blocks<Torsion>, Box<Spins>),
 }
 
 impl Default for Forces {
@@ -59,7 +58,7 @@ impl Forces {
     /// Of a mesh in which elements carry the pressure, or not.
     pub(super) fn new(mesh: &Mesh, volumes: bool) -> Self {
         Spins::new(mesh, volumes)
-            .map_or_else(Self::default, |spins| Self::Ellipsoids(Vec::new(), spins))
+            .map_or_else(Self::default, |spins| Self::Ellipsoids(Vec::new(), Box::new(spins)))
     }
 
     /// The rotation of the members, if they rotate.
@@ -89,20 +88,10 @@ impl Forces {
     pub(super) fn bytes(&self) -> usize {
         match self {
             Self::Spheres(blocks) => nested(blocks),
-            Self::Ellipsoids(blocks, spins) => nested(blocks) + spins.bytes(),
+            Self::Ellipsoids(blocks, spins) => {
+                nested(blocks) + std::mem::size_of::<Spins>() + spins.bytes()
+            }
         }
-    }
-}
-
-impl<N: Normals> Active<N> {
-    /// Whether it does anything: particles at rest beside each other do not.
-    fn moves(&self, mesh: &Mesh) -> bool {
-        let [a, b] = self.pair.bodies.map(usize::from);
-        a != b && mesh.bodies[a].velocity != mesh.bodies[b].velocity
-            || self.push != [0.0; 2]
-            || self.drag != 0.0
-            || self.flux != 0.0
-            || self.normals.twists()
     }
 }
 
@@ -113,17 +102,22 @@ struct Work {
     power: [f64; 2],
 }
 
-impl<N: Normals> Active<N> {
-    /// Density rates (36), pressure work (59) and half of the viscous heat of (60) each, where the first moves against the
-    /// second with velocity `v` and both have these spins.
+impl<T> Active<T> {
+    /// Density rates (36), pressure work (59) and half of the viscous heat of (60) each, where the first is at `r` from the
+    /// second and moves against it with velocity `v`, and both have these spins.
     #[inline(always)]
-    fn over(&self, v: [f64; 3], spins: [[f64; 3]; 2]) -> Work {
-        let closings = self.normals.closings(self.r, v, spins);
-        let closing = -(self.r[0] * v[0] + self.r[1] * v[1] + self.r[2] * v[2]);
-        let half = 0.5 * (self.drag * closing - self.normals.torsion_power(spins));
+    fn over(
+        &self,
+        normals: &impl Normals,
+        (r, v): ([f64; 3], [f64; 3]),
+        spins: [[f64; 3]; 2],
+    ) -> Work {
+        let [first, second] = normals.closings(r, v, spins);
+        let closing = -dot(r, v);
+        let half = 0.5 * (self.drag * closing - normals.torsion_power(spins));
         Work {
-            rho_rate: [0, 1].map(|k| self.row[k] * closings[k]),
-            power: [0, 1].map(|k| self.push[k] * closings[k] + half),
+            rho_rate: [self.row[0] * first, self.row[1] * second],
+            power: [self.push[0] * first + half, self.push[1] * second + half],
         }
     }
 }
@@ -134,23 +128,31 @@ struct Crowd<'a> {
     position: &'a [Vec<f64>; 3],
     members: &'a [u32],
     body: &'a [u16],
+    place: &'a [[i16; 3]],
 }
 
 impl Crowd<'_> {
+    #[inline(always)]
     fn pair(&self, members: [u32; 2]) -> Pair {
-        let of = |column: &[u32]| members.map(|member| column[member as usize]);
-        let bodies = members.map(|member| self.body[member as usize]);
-        Pair { members, particles: of(self.members), bodies }
+        let [a, b] = members.map(|member| member as usize);
+        Pair {
+            members,
+            particles: [self.members[a], self.members[b]],
+            bodies: [self.body[a], self.body[b]],
+        }
     }
 
     fn who(&self, member: usize) -> Who {
-        Who { particle: self.members[member] as usize, body: self.body[member].into() }
+        let particle = self.members[member] as usize;
+        Who { particle, body: self.body[member].into(), place: self.place[member] }
     }
 
     /// From the second to the first.
     #[inline(always)]
     fn apart(&self, [a, b]: [u32; 2]) -> [f64; 3] {
-        std::array::from_fn(|d| self.position[d][a as usize] - self.position[d][b as usize])
+        let along = |x: &[f64]| x[a as usize] - x[b as usize];
+        let [x, y, z] = self.position;
+        [along(x), along(y), along(z)]
     }
 }
 
@@ -168,8 +170,8 @@ struct View<'a> {
 impl Contacts {
     /// Sees the members.
     fn parts(&mut self) -> (Crowd<'_>, &mut Forces, Option<&Kernel>, &mut [f64]) {
-        let Self { list, position, members, body, forces, kernel, power, .. } = self;
-        (Crowd { list, position, members, body }, forces, kernel.as_ref(), power)
+        let Self { list, position, members, body, place, forces, kernel, power, .. } = self;
+        (Crowd { list, position, members, body, place }, forces, kernel.as_ref(), power)
     }
 
     /// The sweep that the paper's scheme removes: density from the positions, if by a kernel.
@@ -182,7 +184,7 @@ impl Contacts {
             Forces::Spheres(_) => kernel_terms(&crowd, &Spheres, of, &mut terms),
             Forces::Ellipsoids(_, spins) => {
                 spins.pose(mesh, state, |member| crowd.who(member));
-                kernel_terms(&crowd, spins, of, &mut terms)
+                kernel_terms(&crowd, &**spins, of, &mut terms)
             }
         };
         for &i in crowd.members {
@@ -218,36 +220,54 @@ impl Contacts {
         match forces {
             Forces::Spheres(blocks) => {
                 view.find(&Spheres, (&crowd, widest), blocks);
-                let damped = view.damp(blocks, most, &mut sums.rho_rate);
-                let once = |contact: &Active<()>, sums: &mut Sums| {
-                    view.work_at_once(contact, [[0.0; 3]; 2], (sums, power));
+                let damped = view.damp((&crowd, blocks), most, &mut sums.rho_rate, |_| {});
+                let each = |contact: &mut Active<()>, (pair, r): (&Pair, _), sums: &mut Sums| {
+                    let seen = (pair, r, &Spheres);
+                    view.work_at_once(contact, seen, [[0.0; 3]; 2], (sums, power));
+                    Spheres.force(r, contact.push, contact.drag)
                 };
-                view.apply(blocks, dt, (sums, touched, active), once);
+                view.apply((&crowd, blocks), dt, (sums, touched, active), each);
                 damped
             }
             Forces::Ellipsoids(blocks, spins) => {
                 if spins.asks() {
+                    spins.forget_held();
                     for &[a, b] in crowd.list.pairs() {
                         let (r, pair) = (crowd.apart([a, b]), crowd.pair([a, b]));
                         let near = r[0] * r[0] + r[1] * r[1] + r[2] * r[2] < widest;
                         if near && !view.apart(&pair) {
-                            spins.want(a as usize);
-                            spins.want(b as usize);
+                            spins.want(a);
+                            spins.want(b);
                         }
                     }
                 }
                 spins.pose(mesh, state, |member| crowd.who(member));
-                view.find(&*spins, (&crowd, widest), blocks);
-                let (rate, lessened) = view.damp(blocks, most, &mut sums.rho_rate);
-                let eased = view.ease(blocks, most, spins);
-                view.apply(blocks, dt, (sums, touched, active), |contact, sums| {
-                    let both = contact.pair.members.map(|member| spins.of(member).spin);
-                    view.work_at_once(contact, both, (sums, power));
-                    if let Some(torques) = contact.normals.torques(contact.r, contact.push) {
-                        let each = contact.pair.members.into_iter().zip(torques);
-                        each.for_each(|(member, torque)| spins.twist(member, torque));
+                view.find(&**spins, (&crowd, widest), blocks);
+                let count = |contact: &Active<Torsion>| {
+                    if contact.torque.coefficient > 0.0 {
+                        let [a, b] = contact.members;
+                        spins.count(a);
+                        spins.count(b);
                     }
-                });
+                };
+                let (rate, mut lessened) =
+                    view.damp((&crowd, blocks), most, &mut sums.rho_rate, count);
+                let each =
+                    |contact: &mut Active<Torsion>, (pair, r): (&Pair, _), sums: &mut Sums| {
+                        lessened += u64::from(view.ease(contact, pair, most, spins));
+                        let [a, b] = contact.members;
+                        let poses = [spins.of(a), spins.of(b)];
+                        let arms = Arms::new(poses, r, &contact.torque);
+                        let both = poses.map(|pose| pose.spin);
+                        view.work_at_once(contact, (pair, r, &arms), both, (sums, power));
+                        let [one, other] = arms.torques(r, contact.push);
+                        spins.twist(a, one);
+                        spins.twist(b, other);
+                        spins.act(a);
+                        spins.act(b);
+                        arms.force(r, contact.push, contact.drag)
+                    };
+                view.apply((&crowd, blocks), dt, (sums, touched, active), each);
                 spins.bar(crowd.members);
                 spins.couple((mesh, state), crowd.members, |i, force| {
                     sums.fx[i] += force[0];
@@ -256,7 +276,7 @@ impl Contacts {
                     touched[i] = true;
                     active[mesh.piece_of(i)] = true;
                 });
-                (rate, lessened + eased)
+                (rate, lessened)
             }
         }
     }
@@ -266,7 +286,7 @@ impl Contacts {
     pub fn work(
         &mut self,
         mesh: &Mesh,
-        mean: impl Fn(usize) -> [f64; 3],
+        mean: impl Fn(usize) -> [f64; 3] + Sync,
         dt: f64,
         out: (&mut [f64], &mut [f64]),
     ) {
@@ -277,14 +297,20 @@ impl Contacts {
             }
             return;
         }
-        match &self.forces {
-            Forces::Spheres(blocks) => work(blocks, mesh, (&mean, dt), |_| [[0.0; 3]; 2], out),
+        let (crowd, forces, ..) = self.parts();
+        let crowd = (&crowd, mesh);
+        match forces {
+            Forces::Spheres(blocks) => {
+                work(blocks, crowd, (&mean, dt), |_, _| (Spheres, [[0.0; 3]; 2]), out);
+            }
             Forces::Ellipsoids(blocks, spins) => {
-                let both = |pair: &Pair| {
-                    let of = |k: usize| (pair.members[k], pair.who(k));
-                    [0, 1].map(|k| spins.mean(mesh, of(k), &mean, dt))
+                spins.settle(mesh, |member| crowd.0.who(member), &mean, dt);
+                let posed = |contact: &Active<Torsion>, r| {
+                    let [a, b] = contact.members;
+                    let poses = [spins.of(a), spins.of(b)];
+                    (Arms::new(poses, r, &contact.torque), poses.map(|pose| pose.spin))
                 };
-                work(blocks, mesh, (&mean, dt), both, out);
+                work(blocks, crowd, (&mean, dt), posed, out);
             }
         }
     }
@@ -329,21 +355,24 @@ fn kernel_terms<S: Shape>(
     each.sum()
 }
 
-/// What contacts do over the mean velocities of a step.
-fn work<N: Normals>(
-    blocks: &Blocks<N>,
-    mesh: &Mesh,
+/// What contacts do over the mean velocities of a step; `posed` gives how they push, and the spins.
+fn work<T, N: Normals>(
+    blocks: &Blocks<T>,
+    (crowd, mesh): (&Crowd<'_>, &Mesh),
     (mean, dt): (&impl Fn(usize) -> [f64; 3], f64),
-    spins: impl Fn(&Pair) -> [[f64; 3]; 2],
+    posed: impl Fn(&Active<T>, [f64; 3]) -> (N, [[f64; 3]; 2]),
     (rho_rate, heat): (&mut [f64], &mut [f64]),
 ) {
     for active in blocks.iter().flatten() {
-        let [i, j] = active.pair.particles.map(|k| k as usize);
-        let [one, other] = active.pair.bodies.map(usize::from);
+        let Pair { particles, bodies, .. } = crowd.pair(active.members);
+        let [i, j] = particles.map(|k| k as usize);
+        let [one, other] = bodies.map(usize::from);
         let drift = mesh.drift_of(one, other);
         let (a, b) = (mean(i), mean(j));
-        let v: [f64; 3] = std::array::from_fn(|d| a[d] - b[d] + drift[d]);
-        let work = active.over(v, spins(&active.pair));
+        let v = [a[0] - b[0] + drift[0], a[1] - b[1] + drift[1], a[2] - b[2] + drift[2]];
+        let r = crowd.apart(active.members);
+        let (normals, spins) = posed(active, r);
+        let work = active.over(&normals, (r, v), spins);
         rho_rate[i] += work.rho_rate[0];
         rho_rate[j] += work.rho_rate[1];
         heat[i] += dt * work.power[0];
@@ -357,18 +386,13 @@ pub(super) fn nested<T>(buffers: &Vec<Vec<T>>) -> usize {
     each * std::mem::size_of::<T>() + buffers.capacity() * std::mem::size_of::<Vec<T>>()
 }
 
-/// Contacts with a viscous force.
-fn damped<N>(blocks: &mut [Vec<Active<N>>]) -> impl Iterator<Item = &mut Active<N>> {
-    blocks.iter_mut().flatten().filter(|contact| contact.drag > 0.0)
-}
-
 impl View<'_> {
     /// The contacts of a list, those at distances whose square is below `widest`.
     fn find<S: Shape>(
         &self,
         shape: &S,
         (crowd, widest): (&Crowd<'_>, f64),
-        blocks: &mut Blocks<S::Normals>,
+        blocks: &mut Blocks<S::Torque>,
     ) {
         let pairs = crowd.list.pairs();
         blocks.resize_with(pairs.len().div_ceil(BLOCK), Vec::new);
@@ -379,24 +403,25 @@ impl View<'_> {
                 if r[0] * r[0] + r[1] * r[1] + r[2] * r[2] >= widest {
                     continue;
                 }
-                if let Some(active) = self.contact(shape, crowd.pair(members), r) {
+                if let Some(active) = self.contact(shape, &crowd.pair(members), r) {
                     put(found, active);
                 }
             }
         });
     }
 
-    /// Adds what contacts do to sums and marks, and whatever more `each` does with them.
-    fn apply<N: Normals>(
+    /// Adds what contacts do to sums and marks; `each` gives the force on the first, and does whatever more there is.
+    fn apply<T: Torque>(
         &self,
-        blocks: &Blocks<N>,
+        (crowd, blocks): (&Crowd<'_>, &mut Blocks<T>),
         dt: f64,
         (sums, touched, active): (&mut Sums, &mut [bool], &mut [bool]),
-        mut each: impl FnMut(&Active<N>, &mut Sums),
+        mut each: impl FnMut(&mut Active<T>, (&Pair, [f64; 3]), &mut Sums) -> [f64; 3],
     ) {
-        for contact in blocks.iter().flatten() {
-            let [i, j] = contact.pair.particles.map(|k| k as usize);
-            let f = contact.normals.force(contact.r, contact.push, contact.drag);
+        for contact in blocks.iter_mut().flatten() {
+            let pair = crowd.pair(contact.members);
+            let [i, j] = pair.particles.map(|k| k as usize);
+            let f = each(contact, (&pair, crowd.apart(contact.members)), sums);
             sums.fx[i] += f[0];
             sums.fy[i] += f[1];
             sums.fz[i] += f[2];
@@ -405,8 +430,7 @@ impl View<'_> {
             sums.fz[j] -= f[2];
             sums.heat[i] -= contact.flux * dt;
             sums.heat[j] += contact.flux * dt;
-            each(contact, sums);
-            if contact.moves(self.mesh) {
+            if self.moves(contact, &pair) {
                 active[self.mesh.piece_of(i)] = true;
                 active[self.mesh.piece_of(j)] = true;
             }
@@ -415,23 +439,35 @@ impl View<'_> {
         }
     }
 
+    /// Whether a contact does anything: particles at rest beside each other do not.
+    #[inline(always)]
+    fn moves<T: Torque>(&self, contact: &Active<T>, pair: &Pair) -> bool {
+        let [a, b] = pair.bodies.map(usize::from);
+        contact.push != [0.0; 2]
+            || contact.drag != 0.0
+            || contact.flux != 0.0
+            || contact.torque.twists()
+            || a != b && self.mesh.bodies[a].velocity != self.mesh.bodies[b].velocity
+    }
+
     /// The work of a contact over the velocities at hand, in the sweep that finds its force: what a single pass has
     /// instead of [`work`]. Density rates go to sums, powers to members until the length of the kick is known.
     #[inline(always)]
-    fn work_at_once<N: Normals>(
+    fn work_at_once<T>(
         &self,
-        active: &Active<N>,
+        active: &Active<T>,
+        (pair, r, normals): (&Pair, [f64; 3], &impl Normals),
         spins: [[f64; 3]; 2],
         (sums, power): (&mut Sums, &mut [f64]),
     ) {
         if power.is_empty() {
             return;
         }
-        let [i, j] = active.pair.particles.map(|k| k as usize);
-        let work = active.over(self.velocity(&active.pair), spins);
+        let [i, j] = pair.particles.map(|k| k as usize);
+        let work = active.over(normals, (r, self.velocity(pair)), spins);
         sums.rho_rate[i] += work.rho_rate[0];
         sums.rho_rate[j] += work.rho_rate[1];
-        let [a, b] = active.pair.members.map(|k| k as usize);
+        let [a, b] = pair.members.map(|k| k as usize);
         power[a] += work.power[0];
         power[b] += work.power[1];
     }
@@ -446,10 +482,10 @@ impl View<'_> {
 
     /// The contact of a pair at distance `r`, if there is one.
     #[inline]
-    fn contact<S: Shape>(&self, shape: &S, pair: Pair, r: [f64; 3]) -> Option<Active<S::Normals>> {
+    fn contact<S: Shape>(&self, shape: &S, pair: &Pair, r: [f64; 3]) -> Option<Active<S::Torque>> {
         let [i, j] = pair.particles.map(|k| k as usize);
         let bodies = pair.bodies.map(usize::from);
-        if self.apart(&pair) {
+        if self.apart(pair) {
             return None;
         }
         let square = r[0] * r[0] + r[1] * r[1] + r[2] * r[2];
@@ -463,14 +499,15 @@ impl View<'_> {
         let ratio = [self.derived.rho[i] / body[0].rho_0, self.derived.rho[j] / body[1].rho_0];
         let thin = [0, 1].map(|k| body[k].eos.thinning(ratio[k]));
         // Of the first on the ellipsoid of the second, Eqs. (9), (35), and the other way round.
-        let Meeting { zeta, unit, normals } = shape.meet(self.mesh, &pair, r);
-        let row = [0, 1].map(|k| match self.kernel {
+        let Meeting { zeta, unit } = shape.meet(self.mesh, pair, r);
+        let row = |k: usize| match self.kernel {
             None => thin[k] * body[k].rho_0 * self.row((zeta[k], unit[k]), ratio[1 - k]),
             Some(kernel) => {
                 let slope = kernel.slope(zeta[k]) / (zeta[k] * unit[k] * unit[k]);
                 body[k].rho_0 * kernel.scale([i, j][k]) * slope
             }
-        });
+        };
+        let row = [row(0), row(1)];
         let near = zeta[0].min(zeta[1]) < 1.0;
         if row[0] == 0.0 && row[1] == 0.0 && !near {
             return None;
@@ -480,10 +517,11 @@ impl View<'_> {
             row[k] * self.mesh.mass(i) * self.derived.pressure[i] / (rho * rho)
         };
         let push = [per(0, i), per(1, j)];
-        let mut active = Active { pair, r, normals, row, push, drag: 0.0, flux: 0.0 };
+        let torque = S::Torque::default();
+        let mut active = Active { members: pair.members, row, push, drag: 0.0, flux: 0.0, torque };
         if near {
             let impedance = [self.impedance(i, bodies[0]), self.impedance(j, bodies[1])];
-            let approach = self.closing(&active) / distance;
+            let approach = self.closing(pair, r) / distance;
             if approach > 0.0 {
                 let slope = 0.5 * (body[0].slope + body[1].slope);
                 let sound = 0.5 * (self.sound(i, bodies[0]) + self.sound(j, bodies[1]));
@@ -493,11 +531,7 @@ impl View<'_> {
             }
             let area = |i: usize, body: usize| self.mesh.areas[body][self.mesh.share[i] as usize];
             let torsion = impedance[0] * area(i, bodies[0]) + impedance[1] * area(j, bodies[1]);
-            shape.resist(
-                &active.pair,
-                0.5 * self.method.visc_linear * torsion,
-                &mut active.normals,
-            );
+            active.torque = shape.resist(pair, 0.5 * self.method.visc_linear * torsion);
             let [a, b] = [0, 1].map(|k| impedance[k] * body[k].eos.c_v());
             // The flux of the limited viscosity acts in shocks alone.
             let coefficient = match self.method.viscosity {
@@ -510,77 +544,74 @@ impl View<'_> {
         Some(active)
     }
 
-    /// Lessens viscous torques as [`View::damp`] does forces: they are so much stiffer than those that the printed ones
+    /// Lessens a viscous torque as [`View::damp`] does forces: they are so much stiffer than those that the printed ones
     /// would ask for a fiftieth of the step. Along every axis a contact takes of the spin of a particle with `n` of them
-    /// at most [`BEARABLE`] / `n` in a kick (decision 0021). Returns how often it was less than two thirds of the torque:
-    /// where as much was borne as printed.
-    fn ease(&self, blocks: &mut [Vec<Active<Arms>>], most: f64, spins: &mut Spins) -> u64 {
-        let mut lessened = 0;
-        let twisted = |contact: &&mut Active<Arms>| contact.normals.coefficient > 0.0;
-        for contact in blocks.iter_mut().flatten().filter(twisted) {
-            contact.pair.members.into_iter().for_each(|member| spins.count(member));
+    /// at most [`BEARABLE`] / `n` in a kick (decision 0021). Tells whether it was less than two thirds of the torque: where
+    /// as much was borne as printed.
+    #[inline(always)]
+    fn ease(&self, contact: &mut Active<Torsion>, pair: &Pair, most: f64, spins: &Spins) -> bool {
+        if contact.torque.coefficient <= 0.0 {
+            return false;
         }
-        for contact in blocks.iter_mut().flatten().filter(twisted) {
-            let pair = contact.pair;
-            let crossing = |k: usize| {
-                let body = &self.mesh.bodies[usize::from(pair.bodies[k])];
-                let sound = self.derived.sound[pair.particles[k] as usize];
-                body.solid.sound.max(sound) / (CROSSING * body.edge())
-            };
-            // No kick is longer than the vote of sound.
-            let most = if most.is_finite() { most } else { crossing(0).max(crossing(1)) };
-            let softness = |k: usize| {
-                let inertia = pair.who(k).inertia(self.mesh);
-                let count = spins.twisted(pair.members[k]);
-                (spins.of(pair.members[k]).axes, inertia.map(|j| count / (BEARABLE * most * j)))
-            };
-            let softness = [softness(0), softness(1)];
-            lessened += u64::from(contact.normals.ease(&softness));
-        }
-        for contact in blocks.iter().flatten() {
-            contact.pair.members.into_iter().for_each(|member| spins.forget(member));
-        }
-        lessened
+        let Pair { members: [a, b], particles, bodies } = *pair;
+        let crossing = |k: usize| {
+            let body = &self.mesh.bodies[usize::from(bodies[k])];
+            let sound = self.derived.sound[particles[k] as usize];
+            body.solid.sound.max(sound) / (CROSSING * body.edge())
+        };
+        // No kick is longer than the vote of sound.
+        let most = if most.is_finite() { most } else { crossing(0).max(crossing(1)) };
+        let both = spins.softness(a) + spins.softness(b);
+        contact.torque.ease(both.scaled(1.0 / (BEARABLE * most)))
     }
 
     /// Lessens viscous forces to what stops a pair in a kick, of which `most` is the inverse, and takes [`BEARABLE`] of
     /// its velocity from a particle. Returns what [`Contacts::push`] does. `sums` is nothing before and after: rates of
-    /// density, which are summed there, are not known yet.
-    fn damp<N>(&self, blocks: &mut [Vec<Active<N>>], most: f64, sums: &mut [f64]) -> (f64, u64) {
+    /// density, which are summed there, are not known yet. Meets every contact once, for `each` to see.
+    fn damp<T>(
+        &self,
+        (crowd, blocks): (&Crowd<'_>, &mut Blocks<T>),
+        most: f64,
+        sums: &mut [f64],
+        mut each: impl FnMut(&Active<T>),
+    ) -> (f64, u64) {
         let (mut rate, mut lessened) = (0.0f64, 0);
-        for contact in damped(blocks) {
-            let square: f64 = contact.r.iter().map(|r| r * r).sum();
-            let coefficient = contact.drag * square / self.closing(contact);
-            let pair = contact.pair.particles.map(|k| k as usize);
-            let own = pair.map(|i| coefficient / self.mesh.mass(i));
+        for contact in blocks.iter_mut().flatten() {
+            each(contact);
+            let damps = contact.drag > 0.0;
+            if !damps {
+                continue;
+            }
+            let (pair, r) = (crowd.pair(contact.members), crowd.apart(contact.members));
+            let coefficient = contact.drag * dot(r, r) / self.closing(&pair, r);
+            let [i, j] = pair.particles.map(|k| k as usize);
+            let own = [coefficient / self.mesh.mass(i), coefficient / self.mesh.mass(j)];
             let part = (most / (own[0] + own[1])).min(1.0);
             contact.drag *= part;
             lessened += u64::from(part < 1.0);
-            for (i, own) in pair.into_iter().zip(own) {
-                sums[i] += own * part;
-                rate = rate.max(sums[i]);
-            }
+            sums[i] += own[0] * part;
+            sums[j] += own[1] * part;
+            rate = rate.max(sums[i]).max(sums[j]);
         }
         let bearable = BEARABLE * most;
         if rate > bearable {
-            for contact in damped(blocks) {
-                let [i, j] = contact.pair.particles.map(|k| k as usize);
+            for contact in blocks.iter_mut().flatten().filter(|contact| contact.drag > 0.0) {
+                let [i, j] = crowd.pair(contact.members).particles.map(|k| k as usize);
                 let part = (bearable / sums[i].max(sums[j])).min(1.0);
                 contact.drag *= part;
                 lessened += u64::from(part < 1.0);
             }
         }
-        for contact in blocks.iter().flatten() {
-            contact.pair.particles.into_iter().for_each(|i| sums[i as usize] = 0.0);
+        if rate > 0.0 {
+            crowd.members.iter().for_each(|&i| sums[i as usize] = 0.0);
         }
         (if most.is_finite() { 0.0 } else { rate }, lessened)
     }
 
     /// Closing rate of `r^2 / 2`.
     #[inline(always)]
-    fn closing<N>(&self, Active { pair, r, .. }: &Active<N>) -> f64 {
-        let v = self.velocity(pair);
-        -(r[0] * v[0] + r[1] * v[1] + r[2] * v[2])
+    fn closing(&self, pair: &Pair, r: [f64; 3]) -> f64 {
+        -dot(r, self.velocity(pair))
     }
 
     /// Velocity of the first against the second.

@@ -100,9 +100,7 @@ impl Contacts {
                 position[member] = places[i as usize];
             }
             if let (Some(spins), Some(rigid)) = (self.forces.spins_mut(), &memory.rigid) {
-                let numbers = rigid.as_chunks::<8>().0[i as usize];
-                spins.set(member, rigid_of(numbers));
-                spins.want(member);
+                spins.recall(member, rigid_of(rigid.as_chunks::<8>().0[i as usize]));
             }
         }
         if memory.stale {

@@ -182,9 +182,6 @@ impl Contacts {
         }
         let debris = if mesh.whole(i) { 0 } else { DEBRIS };
         self.flags[member] |= EXPOSED | FRESH | debris;
-        if let Some(spins) = self.forces.spins_mut() {
-            spins.want(member);
-        }
         // A list must be made anew for new members: those that deaths to come will ask for come along.
         let missing = |near: usize| self.index[near] == NONE;
         if hidden && mesh.within(NEAR, body, place).any(missing) {
@@ -216,7 +213,7 @@ impl Contacts {
         self.body.push(body as u16);
         self.place.push(place);
         if let Some(spins) = self.forces.spins_mut() {
-            spins.admit(mesh, Who { particle: i, body });
+            spins.admit(mesh, Who { particle: i, body, place });
         }
         member
     }
@@ -280,8 +277,8 @@ impl Contacts {
     pub(super) fn rotation(&self, mesh: &Mesh, i: usize) -> Option<(f64, [f64; 3])> {
         let (spins, member) = (self.forces.spins()?, self.find(i)?);
         let rigid = spins.rigid(member)?;
-        let who = Who { particle: i, body: self.body(member as u32) };
-        Some((rigid.energy(&who.inertia(mesh)), (rigid.turn * rigid.momentum).into()))
+        let inertia = Who::of(mesh, i).inertia(mesh);
+        Some((rigid.energy(&inertia), (rigid.turn * rigid.momentum).into()))
     }
 
     /// A particle that is an ellipsoid; nothing of a sphere.

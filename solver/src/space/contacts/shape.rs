@@ -1,10 +1,9 @@
 //! How two particles meet: spheres along the line between them, ellipsoids across it.
 
-use nalgebra::{Matrix3, Vector3};
-
 use crate::space::lattice::{cross, dot};
 use crate::space::mesh::Mesh;
-use crate::space::spin::{Spins, Who};
+use crate::space::spin::{Pose, Spins};
+use crate::space::symmetric::Symmetric;
 
 /// A pair of members that may be in contact: the second defines the ellipsoid of the first's coordinate (9).
 #[derive(Debug, Clone, Copy)]
@@ -14,45 +13,40 @@ pub(super) struct Pair {
     pub(super) bodies: [u16; 2],
 }
 
-impl Pair {
-    pub(super) fn who(&self, k: usize) -> Who {
-        Who { particle: self.particles[k] as usize, body: self.bodies[k].into() }
-    }
-}
-
 /// How two particles at some distance meet.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Meeting<N> {
+pub(super) struct Meeting {
     /// Coordinate of each on the ellipsoid of the other, Eq. (9).
     pub(super) zeta: [f64; 2],
-    /// Length in which `normals` are to be divided twice.
+    /// Length in which directions of the contact are to be divided twice.
     pub(super) unit: [f64; 2],
-    pub(super) normals: N,
 }
 
 /// What is particular of spheres, or of ellipsoids.
 pub(super) trait Shape: Sync {
-    /// What a contact keeps besides.
-    type Normals: Normals;
+    /// What a contact keeps of its viscous torque.
+    type Torque: Torque;
     /// How a pair meets, at `r` from the second to the first.
-    fn meet(&self, mesh: &Mesh, pair: &Pair, r: [f64; 3]) -> Meeting<Self::Normals>;
-    /// Adds the viscous torque (54) with the coefficient (55), of particles that rotate on their own.
-    fn resist(&self, pair: &Pair, coefficient: f64, normals: &mut Self::Normals);
+    fn meet(&self, mesh: &Mesh, pair: &Pair, r: [f64; 3]) -> Meeting;
+    /// The viscous torque (54) with the coefficient (55), of particles that rotate on their own.
+    fn resist(&self, pair: &Pair, coefficient: f64) -> Self::Torque;
+}
+
+/// A viscous torque.
+pub(super) trait Torque: Copy + Send + Sync + Default + std::fmt::Debug {
+    /// Whether there is one.
+    fn twists(&self) -> bool;
 }
 
 /// Directions in which a contact pushes, and rates of its coordinates.
-pub(super) trait Normals: Copy + Send + Sync + std::fmt::Debug {
+pub(super) trait Normals: Copy {
     /// Force on the first: pressure of first and second along `H r` on the other's ellipsoid, Eq. (78), and viscous force
     /// along `r`, Eq. (51).
     fn force(&self, r: [f64; 3], push: [f64; 2], drag: f64) -> [f64; 3];
-    /// Torques on both in global axes, Eqs. (79) and (54); nothing of spheres.
-    fn torques(&self, r: [f64; 3], push: [f64; 2]) -> Option<[[f64; 3]; 2]>;
     /// `-H r . (v - omega x r)` of each: minus the bracket of Eq. (12), with spins of first and second.
     fn closings(&self, r: [f64; 3], v: [f64; 3], spins: [[f64; 3]; 2]) -> [f64; 2];
     /// Power of the viscous torque on both, with these spins.
     fn torsion_power(&self, spins: [[f64; 3]; 2]) -> f64;
-    /// Whether there is a viscous torque.
-    fn twists(&self) -> bool;
 }
 
 /// Particles that are spheres: nothing rotates.
@@ -60,29 +54,32 @@ pub(super) trait Normals: Copy + Send + Sync + std::fmt::Debug {
 pub(super) struct Spheres;
 
 impl Shape for Spheres {
-    type Normals = ();
+    type Torque = ();
 
     #[inline(always)]
-    fn meet(&self, mesh: &Mesh, pair: &Pair, r: [f64; 3]) -> Meeting<()> {
+    fn meet(&self, mesh: &Mesh, pair: &Pair, r: [f64; 3]) -> Meeting {
         let distance = dot(r, r).sqrt();
-        let unit = [1, 0].map(|other: usize| mesh.bodies[usize::from(pair.bodies[other])].length);
-        Meeting { zeta: unit.map(|length| distance / length), unit, normals: () }
+        let length = |k: usize| mesh.bodies[usize::from(pair.bodies[k])].length;
+        let unit = [length(1), length(0)];
+        Meeting { zeta: [distance / unit[0], distance / unit[1]], unit }
     }
 
     #[inline(always)]
-    fn resist(&self, _: &Pair, _: f64, (): &mut ()) {}
+    fn resist(&self, _: &Pair, _: f64) {}
 }
 
-impl Normals for () {
+impl Torque for () {
+    #[inline(always)]
+    fn twists(&self) -> bool {
+        false
+    }
+}
+
+impl Normals for Spheres {
     #[inline(always)]
     fn force(&self, r: [f64; 3], push: [f64; 2], drag: f64) -> [f64; 3] {
         let force = push[0] + push[1] + drag;
-        r.map(|r| force * r)
-    }
-
-    #[inline(always)]
-    fn torques(&self, _: [f64; 3], _: [f64; 2]) -> Option<[[f64; 3]; 2]> {
-        None
+        [force * r[0], force * r[1], force * r[2]]
     }
 
     #[inline(always)]
@@ -94,87 +91,98 @@ impl Normals for () {
     fn torsion_power(&self, _: [[f64; 3]; 2]) -> f64 {
         0.0
     }
-
-    #[inline(always)]
-    fn twists(&self) -> bool {
-        false
-    }
 }
 
-/// What a contact of ellipsoids keeps.
+/// The viscous torque of a contact of ellipsoids.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Torsion {
+    /// Its coefficient.
+    pub(super) coefficient: f64,
+    /// What acts on the first.
+    on_first: [f64; 3],
+}
+
+/// How a contact of ellipsoids pushes.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Arms {
     /// `H r` of each on the ellipsoid of the other.
     ways: [[f64; 3]; 2],
-    /// Coefficient of the viscous torque, and that on the first.
-    pub(super) coefficient: f64,
+    /// Viscous torque on the first.
     torsion: [f64; 3],
 }
 
-/// The coordinate (9) of a point at `r` from an ellipsoid with these axes and contact lengths, and `H r` of (10)-(11).
+/// The coordinate (9) of a point at `r` from an ellipsoid with this `H`, and `H r` of (10)-(11).
 #[inline(always)]
-fn coordinate(axes: &[[f64; 3]; 3], lengths: [f64; 3], r: [f64; 3]) -> (f64, [f64; 3]) {
-    let (mut square, mut way) = (0.0, [0.0; 3]);
-    for (axis, length) in axes.iter().zip(lengths) {
-        let along = dot(*axis, r);
-        let scaled = along / (length * length);
-        square += along * scaled;
-        way.iter_mut().zip(axis).for_each(|(way, axis)| *way += scaled * axis);
-    }
-    (square.sqrt(), way)
+fn coordinate(metric: &Symmetric, r: [f64; 3]) -> (f64, [f64; 3]) {
+    let way = metric.times(r);
+    (dot(way, r).sqrt(), way)
 }
 
 impl Shape for Spins {
-    type Normals = Arms;
+    type Torque = Torsion;
 
     #[inline(always)]
-    fn meet(&self, mesh: &Mesh, pair: &Pair, r: [f64; 3]) -> Meeting<Arms> {
-        let mut zeta = [0.0; 2];
-        let ways = [1, 0].map(|other: usize| {
-            let axes = &self.of(pair.members[other]).axes;
-            let (own, way) = coordinate(axes, pair.who(other).lengths(mesh), r);
-            zeta[1 - other] = own;
-            way
-        });
-        Meeting {
-            zeta,
-            unit: [1.0; 2],
-            normals: Arms { ways, coefficient: 0.0, torsion: [0.0; 3] },
-        }
+    fn meet(&self, _: &Mesh, pair: &Pair, r: [f64; 3]) -> Meeting {
+        let on = |k: usize| coordinate(&self.of(pair.members[k]).metric, r).0;
+        Meeting { zeta: [on(1), on(0)], unit: [1.0; 2] }
     }
 
     #[inline(always)]
-    fn resist(&self, pair: &Pair, coefficient: f64, arms: &mut Arms) {
+    fn resist(&self, pair: &Pair, coefficient: f64) -> Torsion {
+        let [a, b] = pair.members;
         // A held particle has no angular momentum that it could give.
-        if !pair.members.into_iter().all(|member| self.rigid(member as usize).is_some()) {
-            return;
+        if !self.is_free(a) || !self.is_free(b) {
+            return Torsion::default();
         }
-        let [own, other] = pair.members.map(|member| self.of(member).spin);
-        arms.coefficient = coefficient;
-        arms.torsion = std::array::from_fn(|d| coefficient * (other[d] - own[d]));
+        let (own, other) = (self.of(a).spin, self.of(b).spin);
+        let along = |d: usize| coefficient * (other[d] - own[d]);
+        Torsion { coefficient, on_first: [along(0), along(1), along(2)] }
+    }
+}
+
+impl Torque for Torsion {
+    #[inline(always)]
+    fn twists(&self) -> bool {
+        self.on_first != [0.0; 3]
+    }
+}
+
+impl Torsion {
+    /// Lessens the viscous torque to what both bear: with the sum `X` of their softnesses times the coefficient it is
+    /// multiplied by `(1 + X) / (1 + X + X^2)`. That is less than one and than `1 / X`, and one where `X` is small. Tells
+    /// whether it is lessened by more than a third.
+    #[inline(always)]
+    pub(super) fn ease(&mut self, softness: Symmetric) -> bool {
+        let x = softness.scaled(self.coefficient);
+        let printed = self.on_first;
+        let more = x.times(printed);
+        let partly = [printed[0] + more[0], printed[1] + more[1], printed[2] + more[2]];
+        let all = Symmetric::identity(1.0) + x + x.squared();
+        let eased = all.inverse().map_or([0.0; 3], |inverse| inverse.times(partly));
+        // Where nothing is borne, as of a gas without sound, there is none.
+        let some = eased[0].is_finite() && eased[1].is_finite() && eased[2].is_finite();
+        self.on_first = if some { eased } else { [0.0; 3] };
+        9.0 * dot(self.on_first, self.on_first) < 4.0 * dot(printed, printed)
     }
 }
 
 impl Arms {
-    /// Lessens the viscous torque to what both bear: with the sum `X` of their softnesses, each given by its axes and what
-    /// it is along them, times the coefficient it is multiplied by `(1 + X) / (1 + X + X^2)`. That is less than one and
-    /// than `1 / X`, and one where `X` is small. Tells whether it is lessened by more than a third.
-    pub(super) fn ease(&mut self, softness: &[([[f64; 3]; 3], Vector3<f64>); 2]) -> bool {
-        let mut x = Matrix3::zeros();
-        for (axes, along) in softness {
-            for (axis, along) in axes.iter().zip(along.iter()) {
-                let axis = Vector3::from(*axis);
-                x += (self.coefficient * along) * axis * axis.transpose();
-            }
-        }
-        let printed = Vector3::from(self.torsion);
-        let partly = printed + x * printed;
-        let all = Matrix3::identity() + x + x * x;
-        // Where nothing is borne, as of a gas without sound, there is none.
-        let eased = all.try_inverse().map_or_else(Vector3::zeros, |inverse| inverse * partly);
-        let eased = if eased.iter().all(|x| x.is_finite()) { eased } else { Vector3::zeros() };
-        self.torsion = eased.into();
-        eased.norm() < 2.0 / 3.0 * printed.norm()
+    /// Of two that are so posed, at `r` from the second to the first, with this viscous torque.
+    #[inline(always)]
+    pub(super) fn new([first, second]: [&Pose; 2], r: [f64; 3], torsion: &Torsion) -> Self {
+        let ways = [second.metric.times(r), first.metric.times(r)];
+        Self { ways, torsion: torsion.on_first }
+    }
+
+    /// Torques on both in global axes, Eqs. (79) and (54).
+    #[inline(always)]
+    pub(super) fn torques(&self, r: [f64; 3], push: [f64; 2]) -> [[f64; 3]; 2] {
+        let [by_first, by_second] = self.ways;
+        let (on_second, on_first) = (cross(by_first, r), cross(by_second, r));
+        let t = self.torsion;
+        let first = |d: usize| push[1] * on_first[d] + t[d];
+        let second = |d: usize| push[0] * on_second[d] - t[d];
+        [[first(0), first(1), first(2)], [second(0), second(1), second(2)]]
     }
 }
 
@@ -182,40 +190,29 @@ impl Normals for Arms {
     #[inline(always)]
     fn force(&self, r: [f64; 3], push: [f64; 2], drag: f64) -> [f64; 3] {
         let [a, b] = self.ways;
-        std::array::from_fn(|d| push[0] * a[d] + push[1] * b[d] + drag * r[d])
-    }
-
-    #[inline(always)]
-    fn torques(&self, r: [f64; 3], push: [f64; 2]) -> Option<[[f64; 3]; 2]> {
-        let [on_second, on_first] = self.ways.map(|way| cross(way, r));
-        Some([
-            std::array::from_fn(|d| push[1] * on_first[d] + self.torsion[d]),
-            std::array::from_fn(|d| push[0] * on_second[d] - self.torsion[d]),
-        ])
+        let along = |d: usize| push[0] * a[d] + push[1] * b[d] + drag * r[d];
+        [along(0), along(1), along(2)]
     }
 
     #[inline(always)]
     fn closings(&self, r: [f64; 3], v: [f64; 3], spins: [[f64; 3]; 2]) -> [f64; 2] {
-        [0, 1].map(|k| {
-            let turning = cross(spins[1 - k], r);
-            -dot(self.ways[k], std::array::from_fn(|d| v[d] - turning[d]))
-        })
+        let [first, second] = spins;
+        let against = |spin: [f64; 3], way: [f64; 3]| {
+            let turning = cross(spin, r);
+            -dot(way, [v[0] - turning[0], v[1] - turning[1], v[2] - turning[2]])
+        };
+        [against(second, self.ways[0]), against(first, self.ways[1])]
     }
 
     #[inline(always)]
     fn torsion_power(&self, [own, other]: [[f64; 3]; 2]) -> f64 {
         dot(self.torsion, own) - dot(self.torsion, other)
     }
-
-    #[inline(always)]
-    fn twists(&self) -> bool {
-        self.torsion != [0.0; 3]
-    }
 }
 
 #[cfg(test)]
 mod tests {
-    use nalgebra::UnitQuaternion;
+    use nalgebra::{UnitQuaternion, Vector3};
 
     use super::*;
     use crate::space::spin::Rigid;
@@ -248,10 +245,10 @@ mod tests {
                 let by = UnitQuaternion::new(time * Vector3::from(self.spins[other]));
                 let turn = by * self.turns[other];
                 let axes = Rigid { turn, momentum: Vector3::zeros() }.axes();
-                coordinate(&axes, self.lengths[other], r)
+                let per_square = self.lengths[other].map(|length| 1.0 / (length * length));
+                coordinate(&Symmetric::along(&axes, per_square), r)
             });
-            let arms =
-                Arms { ways: seen.map(|own| own.1), coefficient: 0.0, torsion: [0.1, 0.4, -0.2] };
+            let arms = Arms { ways: seen.map(|own| own.1), torsion: [0.1, 0.4, -0.2] };
             (seen.map(|own| own.0), arms)
         }
     }
@@ -276,7 +273,7 @@ mod tests {
         let (_, arms) = two.after(0.0);
         let push = [2.0, 0.7];
         let force = arms.force(two.r, push, 0.3);
-        let torques = arms.torques(two.r, push).expect("ellipsoids");
+        let torques = arms.torques(two.r, push);
         let orbit = cross(two.r, force);
         let scale: f64 = orbit.iter().chain(&torques[0]).map(|x| x.abs()).sum();
         for d in 0..3 {
@@ -300,21 +297,20 @@ mod tests {
             momentum: Vector3::zeros(),
         }
         .axes();
-        let along = |printed: f64| Arms {
-            ways: [[0.0; 3]; 2],
+        let along = |printed: f64| Torsion {
             coefficient: 2.0,
-            torsion: std::array::from_fn(|d| (0..3).map(|k| printed * axes[k][d]).sum()),
+            on_first: std::array::from_fn(|d| (0..3).map(|k| printed * axes[k][d]).sum()),
         };
         // The first axis bears a hundredth of what is printed, the others a hundred times as much.
-        let softness = (axes, Vector3::new(50.0, 0.005, 0.005));
-        let mut arms = along(3.0);
-        assert!(!arms.ease(&[softness, (axes, Vector3::zeros())]));
-        let given = axes.map(|axis| dot(axis, arms.torsion));
+        let softness = Symmetric::along(&axes, [50.0, 0.005, 0.005]);
+        let mut torque = along(3.0);
+        assert!(!torque.ease(softness));
+        let given = axes.map(|axis| dot(axis, torque.on_first));
         assert!(given[0] > 0.0 && given[0] < 0.03 && given[0] > 0.029, "{given:?}");
         assert!(given[1..].iter().all(|given| (given / 3.0 - 1.0).abs() < 2e-4), "{given:?}");
         // Two that bear nothing.
-        let mut arms = along(3.0);
-        assert!(arms.ease(&[(axes, Vector3::repeat(f64::INFINITY)), softness]));
-        assert_eq!(arms.torsion, [0.0; 3]);
+        let mut torque = along(3.0);
+        assert!(torque.ease(Symmetric::along(&axes, [f64::INFINITY; 3]) + softness));
+        assert_eq!(torque.on_first, [0.0; 3]);
     }
 }

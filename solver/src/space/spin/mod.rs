@@ -8,42 +8,55 @@ mod rigid;
 
 pub use self::rigid::{Rigid, half_lengths, inertia};
 
-use self::held::Lever;
-use self::rigid::axes;
+use self::held::{Held, Site};
 
 use nalgebra::{Rotation3, UnitQuaternion, Vector3};
 use rayon::prelude::*;
 
 use super::columns::State;
+use super::lattice::NONE;
 use super::mesh::Mesh;
+use super::near::put;
+use super::symmetric::Symmetric;
 
 /// Members that one task looks at.
 const BLOCK: usize = 1024;
 
-/// How a particle lies and rotates now.
+/// How a particle lies and rotates now, as contacts see it.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Pose {
-    /// Its axes, in global ones.
-    pub axes: [[f64; 3]; 3],
-    /// Angular velocity in global axes.
+    /// `H` of Eqs. (10)-(11), with the contact lengths.
+    pub metric: Symmetric,
+    /// Angular velocity in global axes: that at hand, and once all torques are known that in the middle of the kick.
     pub spin: [f64; 3],
 }
 
-/// The rotation of the members of contacts, member by member.
+/// The rotation of members of contacts: of those that rotate on their own, and of those that are held as far as the present
+/// step needs them. Both stand side by side in places, the free ones first, and a member knows its place.
 #[derive(Debug, Clone, Default)]
 pub struct Spins {
     /// Whether particles that elements hold rotate on their own too.
     own: bool,
-    /// What turns each.
-    turning: Vec<Turning>,
-    /// As the present step needs them.
+    /// The ellipsoids of the bodies.
+    ellipsoids: Vec<PerBody>,
+    /// Place of each member, if it has one.
+    place: Vec<u32>,
+    /// Member in each place.
+    members: Vec<u32>,
+    /// As contacts see them.
     poses: Vec<Pose>,
-    /// Whether the present step needs the pose of a member that is held.
-    wanted: Vec<bool>,
     /// Torque in global axes.
     torque: Vec<[f64; 3]>,
-    /// Viscous torques that act on it in the present step.
+    /// What rotates, of the free ones.
+    free: Vec<Rigid>,
+    /// Inverse of their inertia in global axes.
+    softness: Vec<Symmetric>,
+    /// Viscous torques that act on each in the present step.
     twisted: Vec<u32>,
+    /// How elements hold the others.
+    held: Vec<Held>,
+    /// Whether a contact of theirs acts.
+    acts: Vec<bool>,
     /// Mirrors, by the bits of their axes, on which a particle lies: nothing in a scene without.
     mirrors: Vec<u8>,
     /// Torque that mirrors took in the present step.
@@ -52,37 +65,50 @@ pub struct Spins {
     leaving: Vec<(u32, UnitQuaternion<f64>)>,
 }
 
-/// What turns a member.
+/// What all ellipsoids of a body share.
 #[derive(Debug, Clone, Copy)]
-enum Turning {
-    /// The live elements round it; the lever is that of the last step that asked for it.
-    Held(Lever),
-    /// Its own angular momentum.
-    Free(Rigid),
+struct PerBody {
+    /// Contact lengths along its axes, as `1 / (2 beta h_k)^2`.
+    per_square: [f64; 3],
+    /// One over the moments of inertia of a unit of mass.
+    per_inertia: [f64; 3],
 }
 
-/// A member: its particle and body.
+/// A member: its particle, body and place in the lattice.
 #[derive(Debug, Clone, Copy)]
 pub struct Who {
     /// Particle.
     pub particle: usize,
     /// Body.
     pub body: usize,
+    /// Place.
+    pub place: [i16; 3],
+}
+
+/// Contact lengths of the ellipsoids of a body along their axes.
+fn lengths(mesh: &Mesh, body: usize) -> [f64; 3] {
+    let body = &mesh.bodies[body];
+    body.ellipsoid.unwrap_or([body.length; 3])
 }
 
 impl Who {
-    /// Contact lengths of its ellipsoid along its axes.
-    #[inline(always)]
+    /// Of a particle.
     #[must_use]
-    pub fn lengths(&self, mesh: &Mesh) -> [f64; 3] {
-        let body = &mesh.bodies[self.body];
-        body.ellipsoid.unwrap_or([body.length; 3])
+    pub fn of(mesh: &Mesh, particle: usize) -> Self {
+        let (body, place) = mesh.place(particle);
+        Self { particle, body, place }
     }
 
     /// Its moments of inertia.
     #[must_use]
     pub fn inertia(&self, mesh: &Mesh) -> Vector3<f64> {
-        inertia(mesh.mass(self.particle), self.lengths(mesh))
+        inertia(mesh.mass(self.particle), lengths(mesh, self.body))
+    }
+
+    /// Where it lies.
+    fn site(&self, mirrors: &[u8]) -> Site {
+        let mirrors = mirrors_of(mirrors, self.particle);
+        Site { body: self.body, place: self.place, mirrors }
     }
 }
 
@@ -91,7 +117,14 @@ impl Spins {
     #[must_use]
     pub fn new(mesh: &Mesh, volumes: bool) -> Option<Self> {
         let some = mesh.bodies.iter().any(|body| body.ellipsoid.is_some());
-        some.then(|| Self { own: !volumes, ..Self::default() })
+        let ellipsoids = (0..mesh.bodies.len()).map(|body| {
+            let lengths = lengths(mesh, body);
+            PerBody {
+                per_square: lengths.map(|length| 1.0 / (length * length)),
+                per_inertia: inertia(1.0, lengths).map(|j| 1.0 / j).into(),
+            }
+        });
+        some.then(|| Self { own: !volumes, ellipsoids: ellipsoids.collect(), ..Self::default() })
     }
 
     /// Particles lie on a mirror normal to an axis: images of theirs bear the torques about axes in it.
@@ -100,34 +133,63 @@ impl Spins {
         particles.iter().for_each(|&i| self.mirrors[i as usize] |= 1 << axis);
     }
 
-    fn mirrors_of(&self, i: usize) -> u8 {
-        mirrors_of(&self.mirrors, i)
-    }
-
-    /// A new member: it rotates with its body.
+    /// A new member: where all rotate on their own, it does so with its body.
     pub fn admit(&mut self, mesh: &Mesh, who: Who) {
-        let body = &mesh.bodies[who.body];
-        let turning = if self.own {
+        let member = self.place.len();
+        self.place.push(NONE);
+        if self.own {
+            let body = &mesh.bodies[who.body];
             let axes = Rotation3::from_matrix_unchecked(held::columns(body.lattice.axes));
             let turn = UnitQuaternion::from_rotation_matrix(&axes);
-            Turning::Free(Rigid::spinning(turn, body.spin.into(), &who.inertia(mesh)))
-        } else {
-            Turning::Held(Lever::default())
-        };
-        self.turning.push(turning);
-        self.poses.push(Pose::default());
-        self.wanted.push(false);
-        self.torque.push([0.0; 3]);
-        self.twisted.push(0);
+            self.set_free(member, Rigid::spinning(turn, body.spin.into(), &who.inertia(mesh)));
+        }
     }
 
     /// Makes room for so many more members.
     pub fn reserve(&mut self, n: usize) {
-        self.turning.reserve_exact(n);
-        self.poses.reserve_exact(n);
-        self.wanted.reserve_exact(n);
-        self.torque.reserve_exact(n);
-        self.twisted.reserve_exact(n);
+        self.place.reserve_exact(n);
+        if self.own {
+            self.members.reserve_exact(n);
+            self.poses.reserve_exact(n);
+            self.torque.reserve_exact(n);
+            self.free.reserve_exact(n);
+            self.softness.reserve_exact(n);
+            self.twisted.reserve_exact(n);
+        }
+    }
+
+    /// A member rotates on its own from now on. Nothing is known any more of those that are held.
+    pub fn set_free(&mut self, member: usize, rigid: Rigid) {
+        self.forget_held();
+        self.place[member] = self.free.len() as u32;
+        put(&mut self.members, member as u32);
+        put(&mut self.poses, Pose::default());
+        put(&mut self.torque, [0.0; 3]);
+        put(&mut self.free, rigid);
+        put(&mut self.softness, Symmetric::default());
+        put(&mut self.twisted, 0);
+    }
+
+    /// Puts in what rotated of a member, if it did so on its own.
+    pub fn recall(&mut self, member: usize, rigid: Option<Rigid>) {
+        match rigid {
+            Some(rigid) if self.own => self.free[member] = rigid,
+            Some(rigid) => self.set_free(member, rigid),
+            None => {}
+        }
+    }
+
+    /// A new step: nothing is known of those that are held.
+    pub fn forget_held(&mut self) {
+        let free = self.free.len();
+        for &member in &self.members[free..] {
+            self.place[member as usize] = NONE;
+        }
+        self.members.truncate(free);
+        self.poses.truncate(free);
+        self.torque.truncate(free);
+        self.held.clear();
+        self.acts.clear();
     }
 
     /// Whether poses of held members are to be asked for.
@@ -138,88 +200,113 @@ impl Spins {
 
     /// Asks for the pose of a member in this step.
     #[inline(always)]
-    pub fn want(&mut self, member: usize) {
-        self.wanted[member] = true;
+    pub fn want(&mut self, member: u32) {
+        let place = &mut self.place[member as usize];
+        if *place == NONE {
+            *place = self.members.len() as u32;
+            put(&mut self.members, member);
+            put(&mut self.poses, Pose::default());
+            put(&mut self.torque, [0.0; 3]);
+            put(&mut self.held, Held::default());
+            put(&mut self.acts, false);
+        }
+    }
+
+    /// A contact of a member acts: its spin in the middle of the kick will be asked for.
+    #[inline(always)]
+    pub fn act(&mut self, member: u32) {
+        let place = self.place[member as usize] as usize;
+        if place >= self.free.len() {
+            self.acts[place - self.free.len()] = true;
+        }
     }
 
     /// Notes how a particle lies before elements round it die.
     pub fn part(&mut self, mesh: &Mesh, state: &State, i: usize) {
-        let held = held::hold(mesh, state, (i, self.mirrors_of(i)));
-        self.leaving.push((i as u32, UnitQuaternion::from_rotation_matrix(&held.rotation)));
+        let held = Who::of(mesh, i).site(&self.mirrors).hold(mesh, state);
+        let axes = Rotation3::from_matrix_unchecked(held::columns(held.axes));
+        self.leaving.push((i as u32, UnitQuaternion::from_rotation_matrix(&axes)));
     }
 
     /// What was noted and no element holds any more begins to rotate on its own, from rest; `find` gives the member that a
     /// particle is.
     pub fn let_go(&mut self, mesh: &Mesh, find: impl Fn(usize) -> Option<usize>) {
-        for (i, turn) in self.leaving.drain(..) {
+        while let Some((i, turn)) = self.leaving.pop() {
             let i = i as usize;
-            if let Some(member) = find(i).filter(|_| !mesh.held(i)) {
-                self.turning[member] = Turning::Free(Rigid { turn, momentum: Vector3::zeros() });
+            let member = find(i).filter(|_| !mesh.held(i));
+            if let Some(member) = member.filter(|&member| !self.is_free(member as u32)) {
+                self.set_free(member, Rigid { turn, momentum: Vector3::zeros() });
             }
         }
     }
 
-    /// The poses of all that rotate on their own, and of those that were asked for.
+    /// The poses of all that rotate on their own, and of those that were asked for; forgets the viscous torques.
     pub fn pose(&mut self, mesh: &Mesh, state: &State, who: impl Fn(usize) -> Who + Sync) {
-        let mirrors = &self.mirrors;
-        let each = self.turning.par_chunks_mut(BLOCK).zip(self.poses.par_chunks_mut(BLOCK));
-        each.zip(self.wanted.par_chunks_mut(BLOCK)).enumerate().for_each(|(block, columns)| {
-            let ((turning, poses), wanted) = columns;
-            let each = turning.iter_mut().zip(poses).zip(wanted).enumerate();
-            for (at, ((turning, pose), wanted)) in each {
-                let wanted = std::mem::take(wanted);
-                let who = who(block * BLOCK + at);
-                match turning {
-                    Turning::Free(rigid) => {
-                        pose.axes = rigid.axes();
-                        pose.spin = rigid.spin(&who.inertia(mesh)).into();
-                    }
-                    Turning::Held(lever) if wanted => {
-                        let own = (who.particle, mirrors_of(mirrors, who.particle));
-                        let held = held::hold(mesh, state, own);
-                        let velocity = |i: usize| [state.vx[i], state.vy[i], state.vz[i]];
-                        pose.axes = axes(&held.rotation);
-                        *lever = held.lever;
-                        pose.spin = held::spin(mesh, velocity, own, (&pose.axes, lever)).into();
-                    }
-                    Turning::Held(_) => {}
-                }
+        self.twisted.fill(0);
+        let Self { members, poses, free, softness, held, ellipsoids, mirrors, .. } = self;
+        let (poses, held_poses) = poses.split_at_mut(free.len());
+        let (members, held_members) = members.split_at(free.len());
+        let who = |member: &u32| who(*member as usize);
+        let each = free.par_chunks(BLOCK).zip(members.par_chunks(BLOCK));
+        let each = each.zip(poses.par_chunks_mut(BLOCK).zip(softness.par_chunks_mut(BLOCK)));
+        each.for_each(|((free, members), (poses, softness))| {
+            let each = free.iter().zip(members).zip(poses.iter_mut().zip(softness));
+            for ((rigid, member), (pose, softness)) in each {
+                let who = who(member);
+                let PerBody { per_square, per_inertia } = ellipsoids[who.body];
+                let per_mass = 1.0 / mesh.mass(who.particle);
+                let axes = rigid.axes();
+                pose.metric = Symmetric::along(&axes, per_square);
+                *softness = Symmetric::along(&axes, per_inertia).scaled(per_mass);
+                pose.spin = softness.times((rigid.turn * rigid.momentum).into());
+            }
+        });
+        let each = held.par_chunks_mut(BLOCK).zip(held_members.par_chunks(BLOCK));
+        each.zip(held_poses.par_chunks_mut(BLOCK)).for_each(|((held, members), poses)| {
+            for ((held, member), pose) in held.iter_mut().zip(members).zip(poses) {
+                let who = who(member);
+                let PerBody { per_square, .. } = ellipsoids[who.body];
+                (*held, pose.spin) = who.site(mirrors).hold_and_spin(mesh, state);
+                pose.metric = Symmetric::along(&held.axes, per_square);
             }
         });
     }
 
-    /// Pose of a member in this step.
+    /// Pose of a member in this step: one that rotates on its own or was asked for.
     #[inline(always)]
     #[must_use]
     pub fn of(&self, member: u32) -> &Pose {
-        &self.poses[member as usize]
+        &self.poses[self.place[member as usize] as usize]
     }
 
     /// Adds a torque in global axes.
     #[inline(always)]
     pub fn twist(&mut self, member: u32, torque: [f64; 3]) {
-        for (own, torque) in self.torque[member as usize].iter_mut().zip(torque) {
-            *own += torque;
-        }
+        let own = &mut self.torque[self.place[member as usize] as usize];
+        own[0] += torque[0];
+        own[1] += torque[1];
+        own[2] += torque[2];
     }
 
-    /// Counts a viscous torque on a member.
+    /// Counts a viscous torque on a member that rotates on its own.
     #[inline(always)]
     pub fn count(&mut self, member: u32) {
-        self.twisted[member as usize] += 1;
+        self.twisted[self.place[member as usize] as usize] += 1;
     }
 
-    /// Number of viscous torques on a member.
+    /// What the viscous torques on such a member meet: the inverse of its inertia in global axes, times their number.
     #[inline(always)]
     #[must_use]
-    pub fn twisted(&self, member: u32) -> f64 {
-        self.twisted[member as usize].into()
+    pub fn softness(&self, member: u32) -> Symmetric {
+        let place = self.place[member as usize] as usize;
+        self.softness[place].scaled(self.twisted[place].into())
     }
 
-    /// Forgets their number.
+    /// Whether it rotates on its own.
     #[inline(always)]
-    pub fn forget(&mut self, member: u32) {
-        self.twisted[member as usize] = 0;
+    #[must_use]
+    pub fn is_free(&self, member: u32) -> bool {
+        self.own || (self.place[member as usize] as usize) < self.free.len()
     }
 
     /// Takes from particles on mirrors the torques about axes in these, which those of their images cancel.
@@ -228,9 +315,11 @@ impl Spins {
         if self.mirrors.is_empty() {
             return;
         }
-        for (torque, &i) in self.torque.iter_mut().zip(particles) {
+        // By members, whose order no restart changes.
+        let some = self.place.iter().zip(particles).filter(|(place, _)| **place != NONE);
+        for (&place, &i) in some {
             let mirrors = mirrors_of(&self.mirrors, i as usize);
-            for (d, torque) in torque.iter_mut().enumerate() {
+            for (d, torque) in self.torque[place as usize].iter_mut().enumerate() {
                 // A mirror normal to another axis.
                 if mirrors & !(1 << d) != 0 {
                     self.barred[d] += std::mem::take(torque);
@@ -252,15 +341,13 @@ impl Spins {
         particles: &[u32],
         mut push: impl FnMut(usize, [f64; 3]),
     ) {
-        let each = self.turning.iter().zip(&self.poses).zip(self.torque.iter().zip(particles));
-        for ((turning, pose), (torque, &i)) in each {
-            if let Turning::Held(lever) = turning
-                && *torque != [0.0; 3]
-            {
-                let mirrors = mirrors_of(&self.mirrors, i as usize);
-                let own = (i as usize, mirrors, *torque);
-                let given = held::couple((mesh, state), own, (&pose.axes, lever), &mut push);
-                if mirrors != 0 {
+        let others = self.free.len()..;
+        let each = self.members[others.clone()].iter().zip(&self.torque[others]);
+        for ((&member, torque), held) in each.zip(&self.held) {
+            if *torque != [0.0; 3] {
+                let site = Who::of(mesh, particles[member as usize] as usize).site(&self.mirrors);
+                let given = site.couple((mesh, state), (held, *torque), &mut push);
+                if site.mirrors != 0 {
                     for (d, barred) in self.barred.iter_mut().enumerate() {
                         *barred += torque[d] - given[d];
                     }
@@ -269,47 +356,57 @@ impl Spins {
         }
     }
 
-    /// Angular velocity of a member over a kick of half this length on either side, with these mean velocities.
-    #[must_use]
-    pub fn mean(
-        &self,
+    /// The spins in the middle of a kick of this length, with these mean velocities: of all that rotate on their own, and of
+    /// those of which a contact acts.
+    pub fn settle(
+        &mut self,
         mesh: &Mesh,
-        (member, who): (u32, Who),
-        velocity: impl Fn(usize) -> [f64; 3],
+        who: impl Fn(usize) -> Who + Sync,
+        velocity: impl Fn(usize) -> [f64; 3] + Sync,
         kick: f64,
-    ) -> [f64; 3] {
-        let at = member as usize;
-        match &self.turning[at] {
-            Turning::Held(lever) => {
-                let own = (who.particle, self.mirrors_of(who.particle));
-                held::spin(mesh, velocity, own, (&self.poses[at].axes, lever)).into()
+    ) {
+        let Self { members, poses, torque, free, softness, held, acts, mirrors, .. } = self;
+        let (poses, held_poses) = poses.split_at_mut(free.len());
+        let each = poses.par_chunks_mut(BLOCK).zip(softness.par_chunks(BLOCK));
+        each.zip(torque.par_chunks(BLOCK)).for_each(|((poses, softness), torque)| {
+            for ((pose, softness), torque) in poses.iter_mut().zip(softness).zip(torque) {
+                let change = softness.times(*torque);
+                pose.spin[0] += 0.5 * kick * change[0];
+                pose.spin[1] += 0.5 * kick * change[1];
+                pose.spin[2] += 0.5 * kick * change[2];
             }
-            Turning::Free(rigid) => {
-                let mut half = *rigid;
-                half.kick(&(0.5 * kick * Vector3::from(self.torque[at])));
-                half.spin(&who.inertia(mesh)).into()
+        });
+        let each = held.par_chunks(BLOCK).zip(members[free.len()..].par_chunks(BLOCK));
+        let each = each.zip(held_poses.par_chunks_mut(BLOCK).zip(acts.par_chunks(BLOCK)));
+        each.for_each(|((held, members), (poses, acts))| {
+            let each = held.iter().zip(members).zip(poses.iter_mut().zip(acts));
+            for ((held, member), (pose, _)) in each.filter(|(_, (_, acts))| **acts) {
+                let site = who(*member as usize).site(mirrors);
+                pose.spin = site.spin(mesh, &velocity, held);
             }
-        }
+        });
     }
 
-    /// Gives members the angular impulse of a kick, Eq. (75), and rotates them over a drift, Eq. (77).
+    /// Gives those that rotate on their own the angular impulse of a kick, Eq. (75), and rotates them over a drift,
+    /// Eq. (77).
     pub fn advance(
         &mut self,
         mesh: &Mesh,
         who: impl Fn(usize) -> Who + Sync,
         [kick, drift]: [f64; 2],
     ) {
-        let each = self.turning.par_chunks_mut(BLOCK).zip(self.torque.par_chunks_mut(BLOCK));
-        each.enumerate().for_each(|(block, (turning, torque))| {
-            for (at, (turning, torque)) in turning.iter_mut().zip(torque).enumerate() {
+        let Self { members, torque, free, ellipsoids, .. } = self;
+        let each = free.par_chunks_mut(BLOCK).zip(members.par_chunks(BLOCK));
+        each.zip(torque.par_chunks_mut(BLOCK)).for_each(|((free, members), torque)| {
+            for ((rigid, member), torque) in free.iter_mut().zip(members).zip(torque) {
                 let torque = std::mem::take(torque);
-                if let Turning::Free(rigid) = turning {
-                    if torque != [0.0; 3] {
-                        rigid.kick(&(kick * Vector3::from(torque)));
-                    }
-                    if rigid.momentum != Vector3::zeros() {
-                        rigid.rotate(&who(block * BLOCK + at).inertia(mesh), drift);
-                    }
+                if torque != [0.0; 3] {
+                    rigid.kick(&(kick * Vector3::from(torque)));
+                }
+                if rigid.momentum != Vector3::zeros() {
+                    let who = who(*member as usize);
+                    let per_inertia = Vector3::from(ellipsoids[who.body].per_inertia);
+                    rigid.rotate(&(per_inertia / mesh.mass(who.particle)), drift);
                 }
             }
         });
@@ -318,31 +415,26 @@ impl Spins {
     /// What rotates of a member, if it does so on its own.
     #[must_use]
     pub fn rigid(&self, member: usize) -> Option<&Rigid> {
-        match &self.turning[member] {
-            Turning::Held(_) => None,
-            Turning::Free(rigid) => Some(rigid),
-        }
-    }
-
-    /// The same, to be set.
-    pub fn set(&mut self, member: usize, rigid: Option<Rigid>) {
-        self.turning[member] = rigid.map_or(Turning::Held(Lever::default()), Turning::Free);
+        self.free.get(self.place[member] as usize)
     }
 
     /// Axes of a particle that may not be a member, which elements hold.
     #[must_use]
     pub fn held_axes(&self, mesh: &Mesh, state: &State, i: usize) -> [[f64; 3]; 3] {
-        axes(&held::hold(mesh, state, (i, self.mirrors_of(i))).rotation)
+        Who::of(mesh, i).site(&self.mirrors).hold(mesh, state).axes
     }
 
     /// Bytes that it takes.
     #[must_use]
     pub fn bytes(&self) -> usize {
-        self.turning.capacity() * std::mem::size_of::<Turning>()
+        4 * (self.place.capacity() + self.members.capacity() + self.twisted.capacity())
             + self.poses.capacity() * std::mem::size_of::<Pose>()
-            + self.wanted.capacity()
             + 24 * self.torque.capacity()
-            + 4 * self.twisted.capacity()
+            + self.free.capacity() * std::mem::size_of::<Rigid>()
+            + self.softness.capacity() * std::mem::size_of::<Symmetric>()
+            + self.held.capacity() * std::mem::size_of::<Held>()
+            + self.acts.capacity()
+            + self.ellipsoids.capacity() * std::mem::size_of::<PerBody>()
             + self.mirrors.capacity()
             + self.leaving.capacity() * std::mem::size_of::<(u32, UnitQuaternion<f64>)>()
     }

@@ -69,27 +69,32 @@ impl Rigid {
     /// Rotates freely for a time `dt`: Eq. (64) without torque, and (77). The implicit midpoint rule keeps energy and
     /// angular momentum to round-off, whatever the step (D. Lewis and J. C. Simo, J. Nonlinear Sci. 4 (1994) 253), and
     /// is of second order.
-    pub fn rotate(&mut self, inertia: &Vector3<f64>, dt: f64) {
-        let spin = self.momentum.component_div(inertia).norm();
-        if spin == 0.0 {
+    /// `softness` is one over the moments of inertia.
+    pub fn rotate(&mut self, softness: &Vector3<f64>, dt: f64) {
+        let angle = self.momentum.component_mul(softness).norm() * dt;
+        if angle == 0.0 {
             return;
         }
-        let steps = (spin * dt / ANGLE).ceil().clamp(1.0, MOST);
+        if angle <= ANGLE {
+            self.midpoint(softness, dt);
+            return;
+        }
+        let steps = (angle / ANGLE).ceil().min(MOST);
         for _ in 0..steps as usize {
-            self.midpoint(inertia, dt / steps);
+            self.midpoint(softness, dt / steps);
         }
     }
 
-    fn midpoint(&mut self, inertia: &Vector3<f64>, dt: f64) {
+    fn midpoint(&mut self, softness: &Vector3<f64>, dt: f64) {
         let start = self.momentum;
-        let small = 4.0 * f64::EPSILON * start.norm();
+        let small = (4.0 * f64::EPSILON).powi(2) * start.norm_squared();
         let mut end = start;
         let mut spin = Vector3::zeros();
         for _ in 0..ROUNDS {
             let mean = 0.5 * (start + end);
-            spin = mean.component_div(inertia);
+            spin = mean.component_mul(softness);
             let next = start - dt * spin.cross(&mean);
-            let change = (next - end).norm();
+            let change = (next - end).norm_squared();
             end = next;
             if change <= small {
                 break;
@@ -97,7 +102,8 @@ impl Rigid {
         }
         let half = 0.5 * dt * spin;
         let part = UnitQuaternion::new_normalize(Quaternion::new(1.0, half.x, half.y, half.z));
-        self.turn = UnitQuaternion::new_normalize((self.turn * part).into_inner());
+        self.turn *= part;
+        self.turn.renormalize_fast();
         self.momentum = part.inverse_transform_vector(&start);
     }
 }
