@@ -16,6 +16,7 @@ pub mod mesh;
 pub mod method;
 pub mod near;
 pub mod output;
+mod outset;
 pub mod pass;
 pub mod phase;
 pub mod restart;

@@ -7,8 +7,9 @@ use super::element::{Demand, Laws, Read};
 use super::lanes::LANES;
 use super::lattice::cross;
 use super::ledger::Holdings;
-use super::mesh::{Body, Group, Mesh};
+use super::mesh::{Group, Mesh};
 use super::method::Method;
+use super::outset;
 use super::pass::{COLOURS, Load, Motion, Pass, over_elements};
 use super::phase::Phase;
 use super::scene::Scene;
@@ -101,28 +102,6 @@ fn too_near(scene: &Scene, [body, other]: [usize; 2], [distance, least]: [f64; 2
     SceneError::new(format!("bodies.{body}.centre"), value, &wanted)
 }
 
-/// Longest step in which no particles of two bodies, at the speeds of the start, come nearer by more than half of the
-/// shorter edge of their cells: those farther apart than they see each other do not pass each other then.
-fn leap(mesh: &Mesh, state: &State) -> f64 {
-    let mut longest = f64::INFINITY;
-    let fastest = |body: &Body| {
-        let own = body.nodes.clone().chain(body.centroids.clone());
-        let squares = own.map(|i| state.vx[i].powi(2) + state.vy[i].powi(2) + state.vz[i].powi(2));
-        squares.fold(0.0, f64::max).sqrt()
-    };
-    for (k, one) in mesh.bodies.iter().enumerate() {
-        for other in &mesh.bodies[..k] {
-            let apart: [f64; 3] = std::array::from_fn(|d| one.velocity[d] - other.velocity[d]);
-            let apart = apart.iter().map(|v| v * v).sum::<f64>().sqrt();
-            let speed = apart + fastest(one) + fastest(other);
-            if speed > 0.0 {
-                longest = longest.min(0.5 * one.edge().min(other.edge()) / speed);
-            }
-        }
-    }
-    longest
-}
-
 impl Simulation {
     /// A scene at t = 0.
     ///
@@ -179,7 +158,7 @@ impl Simulation {
             kick: 0.0,
             free_dt: 0.0,
             smallest_step: SMALLEST_STEP * scene.stop_time,
-            leap: leap(&mesh, &state),
+            leap: outset::leap(&mesh, &state),
             element_work: 0.0,
             element_heat: 0.0,
             spring_work: 0.0,
@@ -281,12 +260,13 @@ impl Simulation {
         self.load(enter);
         enter(Phase::Control);
         let dt = self.elect(until)?;
-        self.keep_in(dt);
+        let arrival = self.keep_in(dt);
         // What a contact or a wall pushes strains elements in this step already.
         self.wake();
         self.advance(enter);
         self.touch(enter);
         enter(Phase::Control);
+        self.allowed.density = self.allowed.density.min(arrival);
         self.time = if dt >= until - self.time { until } else { self.time + dt };
         self.bury(enter);
         self.wake();
@@ -364,6 +344,11 @@ impl Simulation {
         let [contacts, springs] = self.pushed;
         let after = |rate: f64| if rate > 0.0 { cfl / rate } else { f64::INFINITY };
         let growth = if self.dt > 0.0 { GROWTH * self.free_dt } else { f64::INFINITY };
+        if self.dt == 0.0 {
+            // No step has found rates of density yet.
+            let of = (&self.mesh, &self.groups[..]);
+            self.allowed.density = outset::first(of, (&self.state, &self.contacts), &self.walls);
+        }
         let dt = self.votes.cast([
             (Voter::Sound, cfl * sound),
             (Voter::Density, self.allowed.density),
@@ -389,8 +374,8 @@ impl Simulation {
         Ok(if 2.0 * dt > left { self.votes.shorten(dt, Voter::Landing, share) } else { dt })
     }
 
-    /// Sets the length of the step; walls push what would cross them.
-    fn keep_in(&mut self, dt: f64) {
+    /// Sets the length of the step; walls push what would cross them. Returns the longest next step by what nears them.
+    fn keep_in(&mut self, dt: f64) -> f64 {
         if self.dt == 0.0 && self.volumes {
             let of = (&self.mesh, &self.groups[..]);
             let volume = &mut self.derived.volume;
@@ -398,8 +383,9 @@ impl Simulation {
         }
         self.kick = 0.5 * (self.dt + dt);
         self.dt = dt;
+        let mut arrival = f64::INFINITY;
         for wall in &self.walls {
-            wall.keep(
+            let next = wall.keep(
                 (&self.mesh, &self.contacts),
                 (&self.state, &mut self.sums),
                 [self.kick, dt],
@@ -409,10 +395,12 @@ impl Simulation {
                     self.touched[i] |= stopped;
                 },
             );
+            arrival = arrival.min(next);
         }
         for (given, torque) in self.walls_gave.moment.iter_mut().zip(self.contacts.barred()) {
             *given -= self.kick * torque;
         }
+        arrival
     }
 
     /// The rest of the step in one pass through memory: velocities at the middle of the next drift,

@@ -7,7 +7,7 @@ use super::mesh::{Body, Mesh};
 use super::simulation::CROSSING;
 
 /// Largest relative change of the density in a step, under pressure.
-const DENSEST_STEP: f64 = 0.08;
+pub(super) const DENSEST_STEP: f64 = 0.08;
 
 /// Smallest volume of a particle's elements over that of elements that are crushed.
 const SMALLEST: f64 = 0.5;

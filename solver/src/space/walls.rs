@@ -2,8 +2,9 @@
 
 use super::columns::{State, Sums};
 use super::contacts::Contacts;
-use super::mesh::Mesh;
+use super::mesh::{Body, Mesh};
 use super::scene::{Hold, Scene, Side};
+use super::sweep::DENSEST_STEP;
 
 /// A wall and the nodes that slide on it.
 #[derive(Debug, Clone)]
@@ -54,8 +55,37 @@ impl Wall {
         }
     }
 
+    /// Longest step of a particle at a gap from it, with this speed away from it: the wall may take from the volume of its
+    /// cell as much as a step may change a density.
+    #[inline(always)]
+    fn allows(body: &Body, gap: f64, speed: f64) -> f64 {
+        if speed < 0.0 {
+            (gap.max(0.0) + DENSEST_STEP * body.edge()) / -speed
+        } else {
+            f64::INFINITY
+        }
+    }
+
+    /// Longest step by the speeds of particles that near it.
+    #[must_use]
+    pub fn arrival(&self, (mesh, contacts): (&Mesh, &Contacts), state: &State) -> f64 {
+        let axis = self.axis;
+        let free = contacts.along(axis).map(|(i, body, x)| {
+            let body = &mesh.bodies[body];
+            let speed = self.side * (velocity(state)[axis][i] + body.velocity[axis]);
+            Self::allows(body, self.side * (x - self.position), speed)
+        });
+        let held = self.held.iter().map(|&i| {
+            let body = &mesh.bodies[mesh.place(i as usize).0];
+            let speed = velocity(state)[axis][i as usize] + body.velocity[axis];
+            Self::allows(body, 0.0, -speed.abs())
+        });
+        free.chain(held).fold(f64::INFINITY, f64::min)
+    }
+
     /// Keeps particles on their side over a kick and a drift of these lengths; they stop at the wall
-    /// at most. `seen` is told of every particle that is pushed, and whether it was stopped.
+    /// at most. `seen` is told of every particle that is pushed, and whether it was stopped. Returns the longest next step
+    /// by those that near it.
     pub fn keep(
         &self,
         (mesh, contacts): (&Mesh, &Contacts),
@@ -63,8 +93,9 @@ impl Wall {
         [kick, dt]: [f64; 2],
         given: &mut Given,
         mut seen: impl FnMut(usize, bool),
-    ) {
+    ) -> f64 {
         let axis = self.axis;
+        let mut arrival = f64::INFINITY;
         for (i, body, x) in contacts.along(axis) {
             let whole = mesh.bodies[body].velocity[axis];
             let v = velocity(state)[axis][i] + kick / mesh.mass(i) * force(sums, axis)[i];
@@ -75,6 +106,10 @@ impl Wall {
                 let wanted = self.side * (-gap / dt).min(0.0) - whole;
                 self.push((i, body), wanted, mesh, (state, sums), (kick, given));
                 seen(i, true);
+            } else if gap + 2.0 * dt * speed < 0.0 {
+                // It may be there in the next.
+                let next = Self::allows(&mesh.bodies[body], gap + dt * speed, speed);
+                arrival = arrival.min(next);
             }
         }
         for &i in &self.held {
@@ -86,6 +121,7 @@ impl Wall {
             }
             self.push((i, body), wanted, mesh, (state, sums), (kick, given));
         }
+        arrival
     }
 
     /// Adds the force by which a particle has the wanted velocity normal to the wall after the kick,

@@ -7,7 +7,7 @@ use whipple_solver::space::mapping::Mapping;
 use whipple_solver::space::method::Method;
 use whipple_solver::space::output::Particle;
 use whipple_solver::space::restart::{Section, Values};
-use whipple_solver::space::scene::{Body, Scene, Shape, Side};
+use whipple_solver::space::scene::{Body, Hold, Scene, Shape, Side, Wall};
 use whipple_solver::space::votes::{Voter, Votes};
 
 use super::scenes::{block, body, copper, gas, march, mirror, push, scene, start, steel, strong};
@@ -267,4 +267,53 @@ fn a_step_of_an_ulp_leaves_no_trace_in_the_density() {
     let (plain, ulp) = (run(&[time]), run(&[time, time.next_up()]));
     println!("largest change of density {plain:.1e}, after a step of an ulp {ulp:.1e}");
     assert!(ulp < 1e-5 && plain < 1e-5, "{plain} {ulp}");
+}
+
+/// Share of the density that a step may change, of the edge of a cell.
+const DENSEST: f64 = 0.08;
+
+/// A block of copper that flies at 50 against a wall, whose cells have an edge of 0.1, from this gap.
+fn against_a_wall(gap: f64, hold: Hold) -> Simulation {
+    let fast = Body { velocity: [-50.0, 0.0, 0.0], ..block("copper", [6, 3, 3], 0.1) };
+    let fast = Body { centre: [0.3 + gap, 0.0, 0.0], ..fast };
+    let mut scene = scene(vec![copper()], vec![fast]);
+    scene.walls = vec![Wall { hold, ..mirror(0, 0.0, Side::Above) }];
+    start(&scene)
+}
+
+/// No step has found a rate of density before the first: that is as long as the speeds of the start allow.
+#[test]
+fn the_first_step_knows_the_speeds_of_the_start() {
+    let still = block("copper", [3, 3, 3], 0.1);
+    let fast = Body { centre: [-0.32, 0.0, 0.0], velocity: [50.0, 0.0, 0.0], ..still.clone() };
+    let met = start(&scene(vec![copper()], vec![still, fast]));
+    let apart = Body { noise: 1.0, ..block("copper", [3, 3, 3], 0.1) };
+    let within = start(&scene(vec![copper()], vec![apart]));
+    let all = [
+        (against_a_wall(0.0, Hold::Mirror), DENSEST * 0.1 / 50.0, 1.0),
+        (against_a_wall(0.0, Hold::Rest), DENSEST * 0.1 / 50.0, 1.0),
+        (met, DENSEST * 0.1 / 50.0, 1.0),
+        // Noise of this size has most of its rate along all axes at once: no less than a quarter of three times two.
+        (within, DENSEST * 0.1 / 6.0, 4.0),
+    ];
+    for (mut simulation, most, least) in all {
+        march(&mut simulation, 1);
+        let allowed = simulation.votes().of(Voter::Density);
+        let within = allowed > most * (1.0 - 1e-12) && allowed < most * least * (1.0 + 1e-12);
+        assert!(within && simulation.last_step() <= allowed, "{allowed} {most}");
+    }
+}
+
+/// Whatever the gap to a wall, no more of a cell is beyond it after the step of the impact than a step may change a density.
+#[test]
+fn steps_shorten_before_a_wall_is_met() {
+    for gap in [0.01, 0.13, 3.3, 20.7] {
+        let mut simulation = against_a_wall(gap, Hold::Rest);
+        while simulation.balance().wall_impulse[0] == 0.0 {
+            march(&mut simulation, 1);
+        }
+        let time = simulation.time();
+        println!("gap {gap}: met at {time:.5}, {} steps", simulation.counters().steps);
+        assert!((-1e-12..DENSEST * 0.1 * (1.0 + 1e-12)).contains(&(50.0 * time - gap)), "{time}");
+    }
 }
