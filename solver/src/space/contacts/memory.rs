@@ -85,7 +85,10 @@ impl Contacts {
     /// The members, and the list as it was made.
     pub(in crate::space) fn recall(&mut self, mesh: &Mesh, memory: &Memory, method: &Method) {
         let (longest, kernel, volumes) = (self.longest, self.kernel.take(), self.volumes);
-        let forces = Forces::new(mesh, volumes);
+        let mut forces = Forces::new(mesh, volumes);
+        if let (Some(own), Some(before)) = (forces.spins_mut(), self.forces.spins()) {
+            own.mirrors_of(before);
+        }
         let index = vec![NONE; mesh.len];
         let power = std::mem::take(&mut self.power);
         let [skin, served] = memory.skin;

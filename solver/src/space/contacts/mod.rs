@@ -307,8 +307,10 @@ impl Contacts {
 
     /// Particles lie on a mirror normal to an axis; nothing of spheres.
     pub fn mirror(&mut self, mesh: &Mesh, axis: usize, particles: &[u32]) {
+        let index = &self.index;
         if let Some(spins) = self.forces.spins_mut() {
-            spins.mirror(mesh, axis, particles);
+            let find = |i: usize| (index[i] != NONE).then_some(index[i] as usize);
+            spins.mirror((mesh, axis), particles, find);
         }
     }
 

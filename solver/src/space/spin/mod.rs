@@ -22,6 +22,9 @@ use super::symmetric::Symmetric;
 /// Members that one task looks at.
 const BLOCK: usize = 1024;
 
+/// One less the cosine between an axis of an ellipsoid and the normal of its mirror from which it counts as askew.
+const ASKEW: f64 = 1e-12;
+
 /// How a particle lies and rotates now, as contacts see it.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Pose {
@@ -127,10 +130,33 @@ impl Spins {
         some.then(|| Self { own: !volumes, ellipsoids: ellipsoids.collect(), ..Self::default() })
     }
 
-    /// Particles lie on a mirror normal to an axis: images of theirs bear the torques about axes in it.
-    pub fn mirror(&mut self, mesh: &Mesh, axis: usize, particles: &[u32]) {
+    /// Particles lie on a mirror normal to an axis: images of theirs bear the torques about axes in it. What has begun to
+    /// rotate about such an axis does not; `find` gives the member that a particle is.
+    pub fn mirror(
+        &mut self,
+        (mesh, axis): (&Mesh, usize),
+        particles: &[u32],
+        find: impl Fn(usize) -> Option<usize>,
+    ) {
         self.mirrors.resize(mesh.len, 0);
-        particles.iter().for_each(|&i| self.mirrors[i as usize] |= 1 << axis);
+        for i in particles.iter().map(|&i| i as usize) {
+            self.mirrors[i] |= 1 << axis;
+            if let Some(rigid) = find(i).and_then(|at| self.free.get_mut(self.place[at] as usize)) {
+                let mut momentum: [f64; 3] = (rigid.turn * rigid.momentum).into();
+                let lies = lies_on(&rigid.axes(), axis);
+                for (d, momentum) in momentum.iter_mut().enumerate() {
+                    if !lies || bars(self.mirrors[i], d) {
+                        *momentum = 0.0;
+                    }
+                }
+                rigid.momentum = rigid.turn.inverse_transform_vector(&momentum.into());
+            }
+        }
+    }
+
+    /// Goes on with the mirrors of another.
+    pub fn mirrors_of(&mut self, other: &Self) {
+        self.mirrors.clone_from(&other.mirrors);
     }
 
     /// A new member: where all rotate on their own, it does so with its body.
@@ -319,9 +345,13 @@ impl Spins {
         let some = self.place.iter().zip(particles).filter(|(place, _)| **place != NONE);
         for (&place, &i) in some {
             let mirrors = mirrors_of(&self.mirrors, i as usize);
+            let free = self.free.get(place as usize).filter(|_| mirrors != 0);
+            let tilted = free.is_some_and(|rigid| {
+                let axes = rigid.axes();
+                (0..3).any(|axis| mirrors >> axis & 1 == 1 && !lies_on(&axes, axis))
+            });
             for (d, torque) in self.torque[place as usize].iter_mut().enumerate() {
-                // A mirror normal to another axis.
-                if mirrors & !(1 << d) != 0 {
+                if tilted || bars(mirrors, d) {
                     self.barred[d] += std::mem::take(torque);
                 }
             }
@@ -438,6 +468,17 @@ impl Spins {
             + self.mirrors.capacity()
             + self.leaving.capacity() * std::mem::size_of::<(u32, UnitQuaternion<f64>)>()
     }
+}
+
+/// Whether mirrors, by the bits of their axes, bar torques about an axis: one is normal to another.
+fn bars(mirrors: u8, axis: usize) -> bool {
+    mirrors & !(1 << axis) != 0
+}
+
+/// Whether an ellipsoid with these axes is its own image in a mirror normal to an axis. One that lies askew has no image that
+/// it could turn with, and does not turn.
+fn lies_on(axes: &[[f64; 3]; 3], axis: usize) -> bool {
+    axes.iter().any(|own| own[axis].abs() > 1.0 - ASKEW)
 }
 
 /// Mirrors that a particle lies on.
