@@ -101,11 +101,24 @@ fn table(record: &RandomRecord) -> String {
     for outcome in Outcome::ALL {
         text += &format!("{:>28}", outcome.name());
     }
-    text += &format!("{:>8}{:>8}{:>18}{:>8}\n", "met", "died", "residual > 0.1 %", "slow");
-    let mut sums = [0; 8];
+    text += &format!(
+        "{:>8}{:>8}{:>18}{:>8}{:>8}\n",
+        "met", "died", "residual > 0.1 %", "grown", "slow"
+    );
+    let mut sums = [0; 9];
     for tally in &record.tallies {
         let [ran, refused, reported, failed] = tally.outcomes;
-        let row = [ran, refused, reported, failed, tally.met, tally.died, tally.above, tally.slow];
+        let row = [
+            ran,
+            refused,
+            reported,
+            failed,
+            tally.met,
+            tally.died,
+            tally.above,
+            tally.grown,
+            tally.slow,
+        ];
         text += &counts(&tally.scheme.label(), row);
         sums.iter_mut().zip(row).for_each(|(sum, count)| *sum += count);
     }
@@ -117,10 +130,14 @@ fn table(record: &RandomRecord) -> String {
         text += &format!("refused for {key}: {count}\n");
     }
     for (kind, seeds) in &record.reported {
-        text += &format!("reported, {kind}: {}\n", named(seeds.keys().copied().collect()));
+        text +=
+            &format!("reported, {kind}: {}\n", named(&seeds.keys().copied().collect::<Vec<u64>>()));
     }
     for (property, seeds) in record.broken() {
-        text += &format!("FAILED, {}: {}\n", property.name(), named(seeds));
+        text += &format!("FAILED, {}: {}\n", property.name(), named(&seeds));
+    }
+    if !record.grown.is_empty() {
+        text += &format!("grown, not asked for: {}\n", named(&record.grown));
     }
     text + &format!(
         "seeds {} on, {} run on two threads too\n",
@@ -130,14 +147,14 @@ fn table(record: &RandomRecord) -> String {
 }
 
 /// A row of the table.
-fn counts(label: &str, row: [usize; 8]) -> String {
-    let widths = [28, 28, 28, 28, 8, 8, 18, 8];
+fn counts(label: &str, row: [usize; 9]) -> String {
+    let widths = [28, 28, 28, 28, 8, 8, 18, 8, 8];
     let each = row.iter().zip(widths).map(|(count, width)| format!("{count:>width$}"));
     format!("{label:<28}{}\n", each.collect::<String>())
 }
 
 /// How many seeds, and the first of them.
-fn named(seeds: Vec<u64>) -> String {
+fn named(seeds: &[u64]) -> String {
     let first: Vec<String> = seeds.iter().take(NAMED).map(u64::to_string).collect();
     let more = if seeds.len() > NAMED { ", ..." } else { "" };
     format!("{} (seeds {}{more})", seeds.len(), first.join(", "))
@@ -169,8 +186,8 @@ mod tests {
 
     #[test]
     fn many_seeds_are_counted_and_the_first_named() {
-        assert_eq!(named((0..3).collect()), "3 (seeds 0, 1, 2)");
-        let many = named((0..40).collect());
+        assert_eq!(named(&[0, 1, 2]), "3 (seeds 0, 1, 2)");
+        let many = named(&(0..40).collect::<Vec<u64>>());
         assert!(many.starts_with("40 (seeds 0, 1") && many.ends_with("11, ...)"), "{many}");
     }
 }

@@ -89,7 +89,7 @@ fn form(draw: &mut Draw, most: usize, edge: f64) -> (Shape, [usize; 3]) {
         3 => Shape::Cylinder { diameter: size[0], length: size[2] },
         _ => Shape::Sphere { diameter: size[0] },
     };
-    // Flat cells of a ball: more of them along one axis.
+    // Unequal edges of a ball: fewer cells along one axis.
     let flat = kind == 4 && bricks != [1.0; 3] && cells[0] > 2;
     (shape, if flat { [cells[0], cells[0], 1 + draw.below(cells[0])] } else { cells })
 }

@@ -29,6 +29,8 @@ const IN_A_ROW: usize = 20;
 /// nothing, below the second scenes are counted.
 const STALLED: f64 = 1e-4;
 pub(super) const SLOW: f64 = 1e-2;
+/// Kinetic energy over all energy at the start above which scenes are counted.
+pub(super) const GROWN: f64 = 2.0;
 /// Part of the momentum of a scene above which what a body is given is more than round-off: bodies have met.
 const MET: f64 = 1e-9;
 
@@ -51,8 +53,10 @@ pub enum Property {
     EnergyScale,
     /// That of momentum closes, with what walls gave.
     Momentum,
-    /// The residual of the elements is small.
+    /// The residual of the elements is small beside all energy at the start.
     Residual,
+    /// It is small beside the ledger's energy too, which is the kinetic one at the start, where it is so beside all.
+    ResidualScale,
     /// Two threads give the bits of one.
     Threads,
 }
@@ -70,6 +74,7 @@ impl Property {
             Self::EnergyScale => "energy balance by the ledger's scale alone",
             Self::Momentum => "momentum balance",
             Self::Residual => "residual of the elements",
+            Self::ResidualScale => "residual of the elements by the ledger's scale alone",
             Self::Threads => "bits on two threads",
         }
     }
@@ -131,8 +136,10 @@ pub struct Figures {
     pub angular: f64,
     /// Residual of the elements over the ledger's energy.
     pub residual: f64,
-    /// The same over the largest energy that there was of any kind; it decides nothing.
-    pub residual_of_all: f64,
+    /// The same over all energy at the start, and that of walls; it decides nothing.
+    pub residual_of_start: f64,
+    /// Largest kinetic energy over the same: above 1 what moves has taken more than there was. It decides nothing.
+    pub kinetic: f64,
     /// Shortest step over the time in which sound and motion cross a cell at the start, but for steps that land on the
     /// end.
     pub shortest: Option<f64>,
@@ -144,19 +151,17 @@ pub struct Figures {
 }
 
 impl Figures {
-    /// The errors, which are ratios, with their names.
+    /// Ratios that are errors or tell of one, with their names.
     #[must_use]
-    pub fn errors(&self) -> [(&'static str, f64); 6] {
+    pub fn errors(&self) -> [(&'static str, f64); 7] {
         [
             ("error of the energy balance", self.energy),
             ("error of the energy balance over the largest energy", self.energy_of_all),
             ("error of the momentum balance", self.momentum),
             ("error of the angular momentum balance, not asked for", self.angular),
             ("residual of the elements", self.residual),
-            (
-                "residual of the elements over the largest energy, not asked for",
-                self.residual_of_all,
-            ),
+            ("residual of the elements over all energy at the start", self.residual_of_start),
+            ("kinetic energy over all energy at the start", self.kinetic),
         ]
     }
 }
@@ -194,7 +199,7 @@ impl Threads {
     /// Runs the scene of an impact and looks at its properties; of one seed in ten on two threads too.
     #[must_use]
     pub fn examine(&self, impact: &Impact) -> Examined {
-        let twice = impact.seed % TWICE == 0;
+        let twice = impact.seed.is_multiple_of(TWICE);
         let (mut examined, alone) = run(&self.one, impact, true);
         if twice && !matches!(examined.ending, Ending::Panicked(_)) {
             let (other, together) = run(&self.two, impact, false);
@@ -271,7 +276,7 @@ fn march(impact: &Impact, look: bool) -> (Examined, Vec<Section>) {
         }
         watch.time(&simulation);
         let last = step == impact.steps || simulation.time() >= impact.scene.stop_time;
-        if look && (last || step % LOOK == 0) {
+        if look && (last || step.is_multiple_of(LOOK)) {
             watch.look(&simulation);
         }
     }
@@ -304,7 +309,8 @@ impl Watch {
             momentum: 0.0,
             angular: 0.0,
             residual: 0.0,
-            residual_of_all: 0.0,
+            residual_of_start: 0.0,
+            kinetic: 0.0,
             shortest: None,
             pace: None,
             met: false,
@@ -393,7 +399,9 @@ impl Watch {
         let total = now.energy() + balance.residual() - balance.initial.energy();
         let of_all = (total - balance.wall_work).abs() / self.most.max(f64::MIN_POSITIVE);
         let residual = balance.relative_residual().abs();
-        let residual_of_all = balance.residual().abs() / self.most.max(f64::MIN_POSITIVE);
+        let given = start[0] + start[1].abs() + balance.wall_work.abs();
+        let of_start = |energy: f64| energy / given.max(f64::MIN_POSITIVE);
+        let residual_of_start = of_start(balance.residual().abs());
         let [energy, momentum] = [balance.energy_drift(), balance.momentum_drift()];
         let figures = &mut self.figures;
         figures.energy = figures.energy.max(energy);
@@ -401,20 +409,23 @@ impl Watch {
         figures.momentum = figures.momentum.max(momentum);
         figures.angular = figures.angular.max(balance.angular_drift());
         figures.residual = figures.residual.max(residual);
-        figures.residual_of_all = figures.residual_of_all.max(residual_of_all);
-        let closes = of_all <= ROUND_OFF;
-        let by = if closes { Property::EnergyScale } else { Property::Energy };
-        for (property, value, most, of_all) in [
-            (by, energy, ROUND_OFF, Some(of_all)),
+        figures.residual_of_start = figures.residual_of_start.max(residual_of_start);
+        figures.kinetic = figures.kinetic.max(of_start(now.kinetic));
+        let of = |[all, ledger]: [Property; 2], small| if small { ledger } else { all };
+        let drifts = of([Property::Energy, Property::EnergyScale], of_all <= ROUND_OFF);
+        let left = [Property::Residual, Property::ResidualScale];
+        let left = of(left, residual_of_start <= RESIDUAL);
+        let all = "the largest energy there was";
+        for (property, value, most, beside) in [
+            (drifts, energy, ROUND_OFF, Some((of_all, all))),
             (Property::Momentum, momentum, ROUND_OFF, None),
-            (Property::Residual, residual, RESIDUAL, Some(residual_of_all)),
+            (left, residual, RESIDUAL, Some((residual_of_start, "all energy at the start"))),
         ] {
             // What is no number holds nothing.
             if value.is_nan() || value > most {
-                let of_all = of_all.map_or(String::new(), |part| {
-                    format!(", {part:.1e} of the largest energy there was")
-                });
-                self.note(property, step, value, || format!("{value:.3e} of {most:.0e}{of_all}"));
+                let beside = beside
+                    .map_or(String::new(), |(part, whole)| format!(", {part:.1e} of {whole}"));
+                self.note(property, step, value, || format!("{value:.3e} of {most:.0e}{beside}"));
             }
         }
     }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
-use super::examine::{SLOW, SMALL_RESIDUAL};
+use super::examine::{GROWN, SLOW, SMALL_RESIDUAL};
 use super::{Broken, Ending, Examined, Figures, Impact, Property};
 use crate::files::{FileError, write_atomic};
 use crate::record::Scheme;
@@ -69,6 +69,8 @@ pub struct Tally {
     pub died: usize,
     /// Scenes whose residual of the elements was above 0.1 %.
     pub above: usize,
+    /// Scenes in which the kinetic energy was more than twice all energy at the start.
+    pub grown: usize,
     /// Scenes whose steps were for a while less than a hundredth of those of a quiet one.
     pub slow: usize,
 }
@@ -118,6 +120,8 @@ pub struct RandomRecord {
     pub refused: BTreeMap<String, usize>,
     /// Seeds of scenes with a numerical failure, with the message of the solver, by its kind.
     pub reported: BTreeMap<String, BTreeMap<u64, String>>,
+    /// Seeds of scenes in which the kinetic energy was more than twice all energy at the start.
+    pub grown: Vec<u64>,
     /// Scenes of which a property does not hold.
     pub failed: Vec<Failed>,
 }
@@ -137,6 +141,7 @@ impl RandomRecord {
             worst: BTreeMap::new(),
             refused: BTreeMap::new(),
             reported: BTreeMap::new(),
+            grown: Vec::new(),
             failed: Vec::new(),
         }
     }
@@ -146,11 +151,15 @@ impl RandomRecord {
         self.count += 1;
         self.twice += usize::from(examined.twice);
         let outcome = examined.outcome();
+        if examined.figures.is_some_and(|figures| figures.kinetic > GROWN) {
+            self.grown.push(impact.seed);
+        }
         let tally = self.tally(impact.scheme);
         tally.outcomes[outcome as usize] += 1;
         if let Some(figures) = examined.figures {
             tally.met += usize::from(figures.met);
             tally.died += usize::from(figures.died > 0);
+            tally.grown += usize::from(figures.kinetic > GROWN);
             tally.slow += usize::from(figures.pace.is_some_and(|pace| pace < SLOW));
             tally.above += usize::from(figures.residual > SMALL_RESIDUAL);
             for (what, value) in figures.errors() {
@@ -184,7 +193,8 @@ impl RandomRecord {
     fn tally(&mut self, scheme: Scheme) -> &mut Tally {
         let at = self.tallies.iter().position(|tally| tally.scheme == scheme);
         let at = at.unwrap_or_else(|| {
-            let tally = Tally { scheme, outcomes: [0; 4], met: 0, died: 0, above: 0, slow: 0 };
+            let tally =
+                Tally { scheme, outcomes: [0; 4], met: 0, died: 0, above: 0, grown: 0, slow: 0 };
             self.tallies.push(tally);
             self.tallies.sort_by_key(|tally| tally.scheme.label());
             self.tallies.iter().position(|tally| tally.scheme == scheme).unwrap_or(0)
