@@ -8,7 +8,7 @@ use clap::{CommandFactory, Parser, Subcommand, ValueEnum};
 use whipple_solver::method::{Density, Preset};
 
 use crate::cases::Level;
-use numbers::{SIZES, THREADS, whole};
+use numbers::{SCENES, SIZES, THREADS, whole};
 use times::{SimulatedTime, wall_time};
 
 mod bench;
@@ -17,6 +17,7 @@ mod hard;
 mod list;
 mod numbers;
 mod progress;
+mod random;
 mod reports;
 mod results;
 mod resume;
@@ -188,6 +189,14 @@ struct VvArgs {
     /// How much to run
     #[arg(long, value_parser = reports::levels(), default_value = Level::Standard.name())]
     level: Level,
+    /// With `hard`: so many small random impacts instead of the cases, with what holds of any; the report does not
+    /// show them
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = whole(SCENES))]
+    random: Option<usize>,
+    /// First seed of the random impacts, each of which follows from its seed alone: `--random 1 --from SEED` repeats
+    /// one, says all of it and writes no record
+    #[arg(long, value_name = "SEED", requires = "random", default_value_t = 0)]
+    from: u64,
     /// Folder of the report: one that is there is drawn anew, with the records of its other runs
     #[arg(long, value_name = "DIR", default_value = "reports")]
     out: PathBuf,
@@ -385,8 +394,7 @@ pub fn main() -> u8 {
     let ended = match cli.command {
         Command::List(args) => list::list(&args),
         Command::Run(args) => run::run(&args),
-        Command::Vv(args) if args.cases.iter().any(|name| name == hard::GROUP) => hard::hard(&args),
-        Command::Vv(args) => reports::vv(&args),
+        Command::Vv(args) => vv(&args),
         Command::Report(args) => reports::report(&args),
         Command::Bench(args) => bench::bench(&args),
         Command::Reference(args) => reports::reference(&args),
@@ -400,6 +408,15 @@ pub fn main() -> u8 {
             say(&format!("{word}: {}", as_called(&failure.message, &program())));
             failure.code
         }
+    }
+}
+
+/// Runs cases, those of the group `hard`, or random impacts.
+fn vv(args: &VvArgs) -> Result<u8, Failure> {
+    match args.random {
+        Some(count) => random::random(args, count),
+        None if args.cases.iter().any(|name| name == hard::GROUP) => hard::hard(args),
+        None => reports::vv(args),
     }
 }
 

@@ -2,7 +2,8 @@
 //!
 //! Set-up, pass number and severity are those of `references/hard_cases.toml`. A case measures and says
 //! what it found; a numerical failure is a failed number with the message of the solver. Every case runs
-//! with the densities of `default` and with `paper`.
+//! with the densities of `default` and with `paper`. Beside them stand small [`random`] impacts, of which properties are
+//! looked at that hold of any scene.
 
 mod contact;
 mod dust;
@@ -12,6 +13,7 @@ mod gas;
 mod measure;
 mod modes;
 mod numerics;
+pub mod random;
 mod record;
 mod rotation;
 mod scenes;

@@ -12,6 +12,9 @@ pub(super) const SIZES: RangeInclusive<usize> = 1..=MAX_PARTICLES;
 /// Threads that a run may ask for.
 pub(super) const THREADS: RangeInclusive<usize> = 1..=1024;
 
+/// Random impacts that may be asked for.
+pub(super) const SCENES: RangeInclusive<usize> = 1..=10_000_000;
+
 /// A parser of whole numbers in a range.
 pub(super) fn whole(
     range: RangeInclusive<usize>,

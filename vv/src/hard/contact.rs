@@ -31,7 +31,7 @@ pub(super) fn unlike_densities(sheet: &mut Sheet) {
     for finer in [1usize, 10] {
         let kind = if finer == 1 { "size" } else { "mass" };
         sheet.part(format!("tungsten on foam, particles of equal {kind}"), |sheet| {
-            foam(sheet, finer)
+            on_foam(sheet, finer)
         });
     }
     for equal_mass in [false, true] {
@@ -42,8 +42,8 @@ pub(super) fn unlike_densities(sheet: &mut Sheet) {
     }
 }
 
-/// The tungsten has cells so many times as fine as the foam's.
-fn foam(sheet: &mut Sheet, finer: usize) -> Result<(), Trouble> {
+/// Foam, which is crushed to a twentieth before it fails.
+pub(super) fn foam() -> Material {
     let [density, c0, s] = FOAM;
     let eos = match COPPER.fluid().eos {
         SpaceEos::MieGruneisen { law, .. } => {
@@ -52,7 +52,12 @@ fn foam(sheet: &mut Sheet, finer: usize) -> Result<(), Trouble> {
         gas @ SpaceEos::IdealGas { .. } => gas,
     };
     let failure = Failure { compression: 0.05, ..Failure::default() };
-    let foam = Material { name: "foam".into(), density, eos, failure, ..COPPER.fluid() };
+    Material { name: "foam".into(), density, eos, failure, ..COPPER.fluid() }
+}
+
+/// The tungsten has cells so many times as fine as the foam's.
+fn on_foam(sheet: &mut Sheet, finer: usize) -> Result<(), Trouble> {
+    let [density, c0, s] = FOAM;
     let across = if finer == 1 { 3 } else { 1 };
     let width = across as f64 * EDGE;
     let fine = EDGE / finer as f64;
@@ -67,7 +72,7 @@ fn foam(sheet: &mut Sheet, finer: usize) -> Result<(), Trouble> {
         centre: [0.5 * length, 0.0, 0.0],
         ..block("foam", [(length / EDGE) as usize, across, across], EDGE)
     };
-    let mut scene = scene(sheet.space(), vec![TUNGSTEN.fluid(), foam], vec![tungsten, target]);
+    let mut scene = scene(sheet.space(), vec![TUNGSTEN.fluid(), foam()], vec![tungsten, target]);
     scene.walls = sleeve([width; 2]);
     let exact = PlanarImpact::new(&TUNGSTEN.hugoniot()?, &Hugoniot::new(density, c0, s)?, SPEED)?;
     let mut simulation = Simulation::new(&scene)?;
@@ -313,7 +318,7 @@ fn meeting(scene: &Scene) -> Result<([f64; 3], f64), Trouble> {
 }
 
 /// A metal that falls to pieces at little strain.
-fn brittle(metal: &Metal) -> Material {
+pub(super) fn brittle(metal: &Metal) -> Material {
     let mut material = metal.ductile([0.0029, 125.0, 0.1, 930.0]);
     material.failure.plastic_strain = Some(0.2);
     material.failure.spall = Some(0.012);

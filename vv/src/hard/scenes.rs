@@ -81,11 +81,8 @@ impl Metal {
 }
 
 /// Tungsten and steel that harden and fail, as in the rod impact.
-pub(super) fn rod_metals() -> Vec<Material> {
-    vec![
-        TUNGSTEN.ductile([0.0105, 2.66, 0.12, 1723.0]),
-        STEEL.ductile([0.0075, 5.67, 0.49, 1700.0]),
-    ]
+pub(super) fn rod_metals() -> [Material; 2] {
+    [TUNGSTEN.ductile([0.0105, 2.66, 0.12, 1723.0]), STEEL.ductile([0.0075, 5.67, 0.49, 1700.0])]
 }
 
 /// A gas whose elements never fail, of density 1 and unit specific heat.
@@ -169,7 +166,7 @@ pub(super) fn rod(method: Method, n: usize, long: usize, plate: [usize; 3]) -> S
         ..body("tungsten", Shape::Cylinder { diameter: 0.5, length: 2.0 * half }, [n, n, long])
     };
     let plate = Body { centre: [0.0, 0.5 * a * plate[1] as f64, 0.0], ..block("steel", plate, a) };
-    scene(method, rod_metals(), vec![rod, plate])
+    scene(method, rod_metals().into(), vec![rod, plate])
 }
 
 /// The scene after some steps of its own length.
