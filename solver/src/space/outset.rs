@@ -2,6 +2,7 @@
 
 use super::columns::State;
 use super::contacts::Contacts;
+use super::lattice::dot;
 use super::mesh::{Body, Group, Mesh};
 use super::sweep::DENSEST_STEP;
 use super::walls::Wall;
@@ -38,25 +39,26 @@ fn stretching(mesh: &Mesh, group: &Group, state: &State) -> f64 {
     let lattice = &mesh.bodies[usize::from(group.body)].lattice;
     let mut most = 0.0f64;
     for lane in 0..usize::from(group.lanes) {
-        let v = |slot: usize| {
+        let corner = |slot: usize| {
             let i = group.node(slot) + lane;
-            [state.vx[i], state.vy[i], state.vz[i]]
+            (lattice.position(mesh.place(i).1), [state.vx[i], state.vy[i], state.vz[i]])
+        };
+        let stretch = |a: usize, b: usize| {
+            let ((x, v), (y, w)) = (corner(a), corner(b));
+            let edge = [y[0] - x[0], y[1] - x[1], y[2] - x[2]];
+            dot(edge, [w[0] - v[0], w[1] - v[1], w[2] - v[2]]).abs() / dot(edge, edge)
         };
         let along = |axis: usize| {
-            let edges = (0..8).filter(|slot| slot >> axis & 1 == 0).map(|slot| {
-                let (a, b) = (v(slot), v(slot | 1 << axis));
-                let change = (0..3).map(|d| (b[d] - a[d]) * lattice.axes[axis][d]).sum::<f64>();
-                change.abs()
-            });
-            edges.fold(0.0, f64::max) / lattice.size[axis]
+            let edges = (0..8).filter(|slot| slot >> axis & 1 == 0);
+            edges.map(|slot| stretch(slot, slot | 1 << axis)).fold(0.0, f64::max)
         };
         most = most.max(along(0) + along(1) + along(2));
     }
     most
 }
 
-/// Longest first step: that in which neither the velocities within a body, nor those of bodies that may touch, nor walls
-/// change a density by more than a later step may. Rates that forces find are not known then.
+/// Longest first step: that in which neither the velocities within a body, nor those of two bodies, as if they touched, nor
+/// walls change a density by more than a later step may. Rates that forces find are not known then.
 pub(super) fn first(
     (mesh, groups): (&Mesh, &[Group]),
     (state, contacts): (&State, &Contacts),

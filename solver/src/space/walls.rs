@@ -66,14 +66,15 @@ impl Wall {
         }
     }
 
-    /// Longest step by the speeds of particles that near it.
+    /// Longest step by the speeds of held particles that near it.
     #[must_use]
     pub fn arrival(&self, (mesh, contacts): (&Mesh, &Contacts), state: &State) -> f64 {
         let axis = self.axis;
         let free = contacts.along(axis).map(|(i, body, x)| {
-            let body = &mesh.bodies[body];
-            let speed = self.side * (velocity(state)[axis][i] + body.velocity[axis]);
-            Self::allows(body, self.side * (x - self.position), speed)
+            let own = &mesh.bodies[body];
+            let speed = self.side * (velocity(state)[axis][i] + own.velocity[axis]);
+            let gap = self.side * (x - self.position);
+            if mesh.held(i) { Self::allows(own, gap, speed) } else { f64::INFINITY }
         });
         let held = self.held.iter().map(|&i| {
             let body = &mesh.bodies[mesh.place(i as usize).0];
@@ -85,12 +86,12 @@ impl Wall {
 
     /// Keeps particles on their side over a kick and a drift of these lengths; they stop at the wall
     /// at most. `seen` is told of every particle that is pushed, and whether it was stopped. Returns the longest next step
-    /// by those that near it.
+    /// by held ones that near it, as far as that is shorter than the last of the lengths.
     pub fn keep(
         &self,
         (mesh, contacts): (&Mesh, &Contacts),
         (state, sums): (&State, &mut Sums),
-        [kick, dt]: [f64; 2],
+        [kick, dt, next]: [f64; 3],
         given: &mut Given,
         mut seen: impl FnMut(usize, bool),
     ) -> f64 {
@@ -106,10 +107,9 @@ impl Wall {
                 let wanted = self.side * (-gap / dt).min(0.0) - whole;
                 self.push((i, body), wanted, mesh, (state, sums), (kick, given));
                 seen(i, true);
-            } else if gap + 2.0 * dt * speed < 0.0 {
-                // It may be there in the next.
-                let next = Self::allows(&mesh.bodies[body], gap + dt * speed, speed);
-                arrival = arrival.min(next);
+            } else if gap + (dt + next) * speed < 0.0 && mesh.held(i) {
+                let allowed = Self::allows(&mesh.bodies[body], gap + dt * speed, speed);
+                arrival = arrival.min(allowed);
             }
         }
         for &i in &self.held {

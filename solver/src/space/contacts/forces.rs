@@ -559,7 +559,7 @@ impl View<'_> {
             let sound = self.derived.sound[particles[k] as usize];
             body.solid.sound.max(sound) / (CROSSING * body.edge())
         };
-        // No kick is longer than the vote of sound.
+        // No kick is much longer than the vote of sound, unless that jumps.
         let most = if most.is_finite() { most } else { crossing(0).max(crossing(1)) };
         let both = spins.softness(a) + spins.softness(b);
         contact.torque.ease(both.scaled(1.0 / (BEARABLE * most)))

@@ -159,7 +159,7 @@ impl Torsion {
         let partly = [printed[0] + more[0], printed[1] + more[1], printed[2] + more[2]];
         let all = Symmetric::identity(1.0) + x + x.squared();
         let eased = all.inverse().map_or([0.0; 3], |inverse| inverse.times(partly));
-        // Where nothing is borne, as of a gas without sound, there is none.
+        // Where nothing is borne there is none.
         let some = eased[0].is_finite() && eased[1].is_finite() && eased[2].is_finite();
         self.on_first = if some { eased } else { [0.0; 3] };
         9.0 * dot(self.on_first, self.on_first) < 4.0 * dot(printed, printed)

@@ -85,19 +85,6 @@ impl Site {
         Held::of(&deformation, &mesh.bodies[self.body].lattice.axes)
     }
 
-    /// The same, and its angular velocity.
-    #[must_use]
-    pub fn hold_and_spin(&self, mesh: &Mesh, state: &State) -> (Held, [f64; 3]) {
-        let (mut sum, mut rates) = ([[0.0; 3]; 3], [[0.0; 3]; 3]);
-        for cell in self.cells(mesh) {
-            add(&mut sum, &cell.axes(state));
-            add(&mut rates, &cell.gradient(|i| [state.vx[i], state.vy[i], state.vz[i]]));
-        }
-        let deformation = self.with_images(sum, mesh);
-        let held = Held::of(&deformation, &mesh.bodies[self.body].lattice.axes);
-        (held, held.spin(&self.with_images(rates, mesh)))
-    }
-
     /// Angular velocity where it is held so and corners have these velocities.
     #[must_use]
     pub fn spin(&self, mesh: &Mesh, velocity: impl Fn(usize) -> [f64; 3], held: &Held) -> [f64; 3] {

@@ -30,7 +30,8 @@ const ASKEW: f64 = 1e-12;
 pub struct Pose {
     /// `H` of Eqs. (10)-(11), with the contact lengths.
     pub metric: Symmetric,
-    /// Angular velocity in global axes: that at hand, and once all torques are known that in the middle of the kick.
+    /// Angular velocity in global axes: that at hand, and once all torques are known that in the middle of the kick. What is
+    /// held has the second alone.
     pub spin: [f64; 3],
 }
 
@@ -130,8 +131,8 @@ impl Spins {
         some.then(|| Self { own: !volumes, ellipsoids: ellipsoids.collect(), ..Self::default() })
     }
 
-    /// Particles lie on a mirror normal to an axis: images of theirs bear the torques about axes in it. What has begun to
-    /// rotate about such an axis does not; `find` gives the member that a particle is.
+    /// Particles lie on a mirror normal to an axis: images of theirs bear the torques about axes in it, and they have no spin
+    /// about such an axis, what lies askew none at all. `find` gives the member that a particle is.
     pub fn mirror(
         &mut self,
         (mesh, axis): (&Mesh, usize),
@@ -142,14 +143,7 @@ impl Spins {
         for i in particles.iter().map(|&i| i as usize) {
             self.mirrors[i] |= 1 << axis;
             if let Some(rigid) = find(i).and_then(|at| self.free.get_mut(self.place[at] as usize)) {
-                let mut momentum: [f64; 3] = (rigid.turn * rigid.momentum).into();
-                let lies = lies_on(&rigid.axes(), axis);
-                for (d, momentum) in momentum.iter_mut().enumerate() {
-                    if !lies || bars(self.mirrors[i], d) {
-                        *momentum = 0.0;
-                    }
-                }
-                rigid.momentum = rigid.turn.inverse_transform_vector(&momentum.into());
+                bound(rigid, self.mirrors[i]);
             }
         }
     }
@@ -292,7 +286,7 @@ impl Spins {
             for ((held, member), pose) in held.iter_mut().zip(members).zip(poses) {
                 let who = who(member);
                 let PerBody { per_square, .. } = ellipsoids[who.body];
-                (*held, pose.spin) = who.site(mirrors).hold_and_spin(mesh, state);
+                *held = who.site(mirrors).hold(mesh, state);
                 pose.metric = Symmetric::along(&held.axes, per_square);
             }
         });
@@ -335,7 +329,8 @@ impl Spins {
         self.own || (self.place[member as usize] as usize) < self.free.len()
     }
 
-    /// Takes from particles on mirrors the torques about axes in these, which those of their images cancel.
+    /// Takes from particles on mirrors the torques about axes in these, which those of their images cancel; from what lies
+    /// askew all.
     pub fn bar(&mut self, particles: &[u32]) {
         self.barred = [0.0; 3];
         if self.mirrors.is_empty() {
@@ -346,10 +341,7 @@ impl Spins {
         for (&place, &i) in some {
             let mirrors = mirrors_of(&self.mirrors, i as usize);
             let free = self.free.get(place as usize).filter(|_| mirrors != 0);
-            let tilted = free.is_some_and(|rigid| {
-                let axes = rigid.axes();
-                (0..3).any(|axis| mirrors >> axis & 1 == 1 && !lies_on(&axes, axis))
-            });
+            let tilted = free.is_some_and(|rigid| !lies_on(rigid, mirrors));
             for (d, torque) in self.torque[place as usize].iter_mut().enumerate() {
                 if tilted || bars(mirrors, d) {
                     self.barred[d] += std::mem::take(torque);
@@ -425,7 +417,7 @@ impl Spins {
         who: impl Fn(usize) -> Who + Sync,
         [kick, drift]: [f64; 2],
     ) {
-        let Self { members, torque, free, ellipsoids, .. } = self;
+        let Self { members, torque, free, ellipsoids, mirrors, .. } = self;
         let each = free.par_chunks_mut(BLOCK).zip(members.par_chunks(BLOCK));
         each.zip(torque.par_chunks_mut(BLOCK)).for_each(|((free, members), torque)| {
             for ((rigid, member), torque) in free.iter_mut().zip(members).zip(torque) {
@@ -436,7 +428,11 @@ impl Spins {
                 if rigid.momentum != Vector3::zeros() {
                     let who = who(*member as usize);
                     let per_inertia = Vector3::from(ellipsoids[who.body].per_inertia);
-                    rigid.rotate(&(per_inertia / mesh.mass(who.particle)), drift);
+                    let softness = per_inertia / mesh.mass(who.particle);
+                    match mirrors_of(mirrors, who.particle) {
+                        0 => rigid.rotate(&softness, drift),
+                        one => rigid.rotate_about(one.trailing_zeros() as usize, &softness, drift),
+                    }
                 }
             }
         });
@@ -475,13 +471,56 @@ fn bars(mirrors: u8, axis: usize) -> bool {
     mirrors & !(1 << axis) != 0
 }
 
-/// Whether an ellipsoid with these axes is its own image in a mirror normal to an axis. One that lies askew has no image that
-/// it could turn with, and does not turn.
-fn lies_on(axes: &[[f64; 3]; 3], axis: usize) -> bool {
-    axes.iter().any(|own| own[axis].abs() > 1.0 - ASKEW)
+/// Whether an ellipsoid has an axis along the normal of every one of these mirrors. One that lies askew has no image that it
+/// could turn with, and does not turn; nor do round ones that could, whatever their axes.
+fn lies_on(rigid: &Rigid, mirrors: u8) -> bool {
+    let axes = rigid.axes();
+    let along = |normal: usize| axes.iter().any(|own| own[normal].abs() > 1.0 - ASKEW);
+    (0..3).all(|normal| mirrors >> normal & 1 == 0 || along(normal))
+}
+
+/// Takes what these mirrors do not let be from the angular momentum of what lies on them.
+fn bound(rigid: &mut Rigid, mirrors: u8) {
+    let lies = lies_on(rigid, mirrors);
+    let mut momentum: [f64; 3] = (rigid.turn * rigid.momentum).into();
+    for (d, momentum) in momentum.iter_mut().enumerate() {
+        if !lies || bars(mirrors, d) {
+            *momentum = 0.0;
+        }
+    }
+    rigid.momentum = rigid.turn.inverse_transform_vector(&momentum.into());
 }
 
 /// Mirrors that a particle lies on.
 fn mirrors_of(mirrors: &[u8], i: usize) -> u8 {
     mirrors.get(i).copied().unwrap_or(0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// About its middle axis, along which the normal lies but for round-off, nothing tips over.
+    #[test]
+    fn what_lies_on_a_mirror_does_not_tip_over() {
+        let softness = Vector3::new(1.0, 0.5, 0.25);
+        let turn = UnitQuaternion::from_euler_angles(std::f64::consts::FRAC_PI_2, 0.0, 0.3);
+        let start = Rigid { turn, momentum: turn.inverse() * Vector3::new(0.0, 0.0, 3.0) };
+        let (mut alone, mut on, mut tips) = (start, start, false);
+        for _ in 0..20_000 {
+            alone.rotate(&softness, 0.02);
+            on.rotate_about(2, &softness, 0.02);
+            tips |= !lies_on(&alone, 0b100);
+            assert!(lies_on(&on, 0b100));
+        }
+        assert!(tips);
+        assert!(((on.turn * on.momentum).z / 3.0 - 1.0).abs() < 1e-11);
+        // Askew, and on two mirrors, nothing turns at all.
+        let energy = |rigid: &Rigid| rigid.momentum.dot(&rigid.momentum.component_mul(&softness));
+        assert!((energy(&on) / energy(&start) - 1.0).abs() < 1e-11);
+        let mut askew = Rigid { turn: UnitQuaternion::from_euler_angles(0.3, 0.5, 0.0), ..start };
+        bound(&mut askew, 0b100);
+        bound(&mut on, 0b101);
+        assert_eq!([askew.momentum, on.momentum], [Vector3::zeros(); 2]);
+    }
 }

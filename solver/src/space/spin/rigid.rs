@@ -85,6 +85,17 @@ impl Rigid {
         }
     }
 
+    /// The same about one global axis alone, next to which one of its own lies: a middle one too, about which round-off would
+    /// grow.
+    pub fn rotate_about(&mut self, axis: usize, softness: &Vector3<f64>, dt: f64) {
+        let normal = Vector3::ith_axis(axis);
+        let own = self.turn.inverse_transform_vector(&normal);
+        let spin = self.momentum.component_mul(softness).dot(&own);
+        self.turn = UnitQuaternion::from_axis_angle(&normal, spin * dt) * self.turn;
+        self.turn.renormalize_fast();
+        self.momentum = self.momentum.dot(&own) * own;
+    }
+
     fn midpoint(&mut self, softness: &Vector3<f64>, dt: f64) {
         let start = self.momentum;
         let small = (4.0 * f64::EPSILON).powi(2) * start.norm_squared();

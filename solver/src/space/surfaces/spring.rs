@@ -197,7 +197,8 @@ impl Spring {
     }
 
     /// Inverse of the mass that moves with it. With a point of a face all others round a corner push that:
-    /// as much area as a node of a flat surface has.
+    /// as much area as a node of a flat surface has. A point that acts for more than a node of the other surface has pushes
+    /// that alone.
     pub(super) fn inertia(&self, (mesh, contacts): (&Mesh, &Contacts), start: &Start) -> f64 {
         if start.is_loose() {
             let shares = self.shares(contacts, start);
@@ -205,8 +206,12 @@ impl Spring {
         }
         let bodies = self.bodies.map(|body| &mesh.bodies[body as usize]);
         let per_area = bodies.map(|body| 4.0 / (body.rho_0 * body.edge()));
-        let area = bodies[0].edge().powi(2) / POINTS.len() as f64;
-        (per_area[0] + per_area[1]) / area
+        let area = bodies.map(|body| body.edge().powi(2) / POINTS.len() as f64);
+        if area[1] < area[0] {
+            per_area[0] / area[0] + per_area[1] / area[1]
+        } else {
+            (per_area[0] + per_area[1]) / area[0]
+        }
     }
 
     /// Velocity of the point towards the surface.

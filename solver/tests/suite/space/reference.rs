@@ -1076,12 +1076,13 @@ impl Plain {
             let inertia: f64 = if s.own.len() == 1 {
                 parts.iter().map(|&(i, share)| share * share / p(i).mass).sum()
             } else {
-                // Of the nodes of both flat surfaces, for the area of one point of four.
+                // Of the nodes of both flat surfaces, for the area of one point of four, or of a node where that has less.
                 let lightness = bodies.map(|b| {
-                    let solid = &self.bodies[b];
-                    4.0 / (solid.material.density * solid.edge)
+                    let own = &self.bodies[b];
+                    let edge = own.edge.min(solid.edge);
+                    4.0 / (own.material.density * own.edge) * 4.0 / (edge * edge)
                 });
-                (lightness[0] + lightness[1]) * 4.0 / (solid.edge * solid.edge)
+                lightness[0] + lightness[1]
             };
             if s.z * s.stand < s.stand + approach * solid.edge / solid.fast {
                 let stiff = s.area * s.stiffness / s.z.clamp(0.2, 1.0).powi(3);

@@ -307,8 +307,13 @@ fn the_first_step_knows_the_speeds_of_the_start() {
 /// Whatever the gap to a wall, no more of a cell is beyond it after the step of the impact than a step may change a density.
 #[test]
 fn steps_shorten_before_a_wall_is_met() {
-    for gap in [0.01, 0.13, 3.3, 20.7] {
+    let landings = [0.0, 0.5, 0.9, 0.95, 0.99];
+    for (gap, landing) in
+        [0.01, 0.13, 3.3, 20.7].into_iter().flat_map(|gap| landings.map(|l| (gap, l)))
+    {
         let mut simulation = against_a_wall(gap, Hold::Rest);
+        // Steps before that are shortened to land on a time, those after are not.
+        simulation.advance_to(landing * gap / 50.0).expect("nothing is met before");
         while simulation.balance().wall_impulse[0] == 0.0 {
             march(&mut simulation, 1);
         }

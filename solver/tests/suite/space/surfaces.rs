@@ -6,7 +6,7 @@ use whipple_solver::space::restart::Values;
 use whipple_solver::space::scene::{Body, Scene, Shape};
 use whipple_solver::space::votes::Voter;
 
-use super::scenes::{bits, block, body, copper, march, scene, start};
+use super::scenes::{after, bits, block, body, copper, march, scene, start, steel, tungsten};
 
 /// Edge of the cells of a plate.
 const EDGE: f64 = 0.1;
@@ -139,4 +139,30 @@ fn bodies_do_not_leap_through_each_other() {
     // Until the second would have passed the first by its own length, if nothing ends the run before.
     let met = simulation.advance_to(0.026).is_err() || simulation.holdings()[0].momentum[0] > 0.0;
     assert!(met, "{:?}", simulation.holdings()[0].momentum);
+}
+
+/// Blocks of unlike cells that begin close: a point of the larger face pushes few, light nodes, and steps are short enough
+/// for them.
+#[test]
+fn unlike_cells_that_begin_close_keep_their_energy() {
+    for (small, large) in [(0.1, 0.5), (0.1, 0.2), (0.05, 0.5)] {
+        let cells = block("steel", [2, 2, 2], small);
+        let gap = 0.07 * large / 0.5 + 0.01 * small;
+        let centre = [small + gap, 0.13 * small, 0.07 * small];
+        let fast = Body { centre, velocity: [-0.005, 0.0, 0.0], ..cells };
+        let still = Body { centre: [-large, 0.0, 0.0], ..block("tungsten", [2, 2, 2], large) };
+        let simulation = after(&scene(vec![steel(), tungsten()], vec![fast, still]), 150);
+        let b = simulation.balance();
+        println!(
+            "{small} on {large}: residual {:.1e}, at {:.2}",
+            b.relative_residual(),
+            simulation.time()
+        );
+        assert!(
+            b.relative_residual().abs() < 5e-3,
+            "{small} on {large}: {}",
+            b.relative_residual()
+        );
+        assert!(simulation.holdings()[1].momentum[0] < 0.0, "they meet");
+    }
 }
