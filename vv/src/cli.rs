@@ -8,6 +8,7 @@ use clap::{CommandFactory, Parser, Subcommand, ValueEnum};
 use whipple_solver::method::{Density, Preset};
 
 use crate::cases::Level;
+use crate::words::harmless;
 use numbers::{SCENES, SIZES, THREADS, whole};
 use times::{SimulatedTime, wall_time};
 
@@ -405,7 +406,7 @@ pub fn main() -> u8 {
         Err(failure) => {
             // A stop that was asked for is no error.
             let word = if failure.code == INTERRUPTED { "note" } else { "error" };
-            say(&format!("{word}: {}", as_called(&failure.message, &program())));
+            say(&format!("{word}: {}", harmless(&as_called(&failure.message, &program()))));
             failure.code
         }
     }

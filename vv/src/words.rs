@@ -28,9 +28,27 @@ pub fn told_apart(value: f64, other: f64) -> f64 {
 /// Digits that tell any two numbers apart.
 const MOST_DIGITS: usize = 17;
 
+/// A message with whatever would move the cursor, colour the terminal or turn the direction of writing shown as its code: input
+/// is quoted in messages.
+#[must_use]
+pub fn harmless(message: &str) -> String {
+    let turns = |c: char| matches!(c, '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
+    let shown = |c: char| {
+        let harms = c != '\n' && c.is_control() || turns(c);
+        if harms { c.escape_unicode().to_string() } else { c.to_string() }
+    };
+    message.chars().map(shown).collect()
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{counted, told_apart};
+    use super::{counted, harmless, told_apart};
+
+    #[test]
+    fn what_moves_the_cursor_is_shown_as_its_code() {
+        assert_eq!(harmless("a\u{1b}[31mb\nc\u{202e}\u{7f}"), "a\\u{1b}[31mb\nc\\u{202e}\\u{7f}");
+        assert_eq!(harmless("Δ = 1 µs, „größer“"), "Δ = 1 µs, „größer“");
+    }
 
     #[test]
     fn numbers_have_the_digits_that_tell_them_apart() {

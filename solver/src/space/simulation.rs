@@ -53,6 +53,8 @@ pub struct Simulation {
     pub(super) active: Vec<bool>,
     /// Particles that touch others.
     touched: Vec<bool>,
+    /// Pieces in which something moves, while some sleep.
+    stirring: Vec<bool>,
     /// What the last evaluation of the equation of state allows.
     pub(super) allowed: Allowed,
     demand: Demand,
@@ -148,6 +150,7 @@ impl Simulation {
             walls: Wall::all(scene, &mesh),
             active: vec![true; mesh.pieces.len()],
             touched: vec![false; mesh.len],
+            stirring: Vec::new(),
             allowed: Allowed::ANYTHING,
             demand: Demand::NONE,
             pushed: [0.0; 2],
@@ -219,8 +222,9 @@ impl Simulation {
         if !self.asleep {
             return;
         }
-        let stirring: Vec<bool> =
-            (0..self.active.len()).map(|p| self.active[p] && self.stirs(p)).collect();
+        let mut stirring = std::mem::take(&mut self.stirring);
+        stirring.clear();
+        stirring.extend((0..self.active.len()).map(|p| self.active[p] && self.stirs(p)));
         self.asleep = false;
         for group in self.groups.iter_mut().filter(|group| !group.awake) {
             let last = u32::from(group.lanes);
@@ -234,6 +238,7 @@ impl Simulation {
                 self.asleep = true;
             }
         }
+        self.stirring = stirring;
     }
 
     /// Takes one step, at most to the time `until`: compatible leapfrog (decision 0012). At that time
@@ -291,12 +296,6 @@ impl Simulation {
 
     /// Forces on all particles: elements, then contacts.
     fn load(&mut self, enter: &mut impl FnMut(Phase)) {
-        if self.dt == 0.0 {
-            // No step has found rates of density yet, nor how long steps are.
-            let of = (&self.mesh, &self.groups[..]);
-            self.allowed.density = outset::first(of, (&self.state, &self.contacts), &self.walls);
-            self.free_dt = self.crossing().min(self.allowed.density);
-        }
         enter(Phase::Elements);
         let pass = Load {
             laws: self.laws(self.dt),
@@ -317,10 +316,10 @@ impl Simulation {
         self.demand = even.and(odd);
         self.element_heat += self.demand.heat;
         let columns = (&self.state, &self.derived);
-        // Of the longest next kick. Where no volumes carry the pressure the viscosity of contacts is that of the method:
-        // there they vote.
+        // Of the longest next kick. Before the first step nothing is known of it, and where no volumes carry the
+        // pressure the viscosity of contacts is that of the method: there they vote.
         let longest = 0.5 * (self.dt + GROWTH * self.free_dt);
-        let damping = if self.volumes { 1.0 / longest } else { f64::INFINITY };
+        let damping = if self.volumes && longest > 0.0 { 1.0 / longest } else { f64::INFINITY };
         enter(Phase::Contacts);
         let (contacts, lessened) = self.contacts.push(
             &self.mesh,
@@ -329,11 +328,10 @@ impl Simulation {
             (&mut self.sums, &mut self.touched, &mut self.active),
         );
         enter(Phase::Springs);
-        let known = if self.dt > 0.0 { self.dt.max(self.free_dt) } else { 0.0 };
         let [rate, heat] = self.surfaces.push(
             (&self.mesh, &self.contacts),
             columns,
-            (&self.method, known),
+            (&self.method, self.dt.max(self.free_dt)),
             (&mut self.sums, &mut self.touched, &mut self.active),
         );
         self.pushed = [contacts, rate];
@@ -341,20 +339,23 @@ impl Simulation {
         self.spring_heat += heat;
     }
 
-    /// What sound allows.
-    fn crossing(&self) -> f64 {
-        let bodies = self.mesh.bodies.iter().map(|body| CROSSING * body.edge() / body.solid.sound);
-        self.method.cfl * bodies.fold(self.allowed.sound, f64::min)
-    }
-
     /// The length of the step: what sound, the density and the elements allow, and landing on `until`.
     fn elect(&mut self, until: f64) -> Result<f64, StepError> {
+        let mut sound = self.allowed.sound;
+        for body in &self.mesh.bodies {
+            sound = sound.min(CROSSING * body.edge() / body.solid.sound);
+        }
         let cfl = self.method.cfl;
         let [contacts, springs] = self.pushed;
         let after = |rate: f64| if rate > 0.0 { cfl / rate } else { f64::INFINITY };
         let growth = if self.dt > 0.0 { GROWTH * self.free_dt } else { f64::INFINITY };
+        if self.dt == 0.0 {
+            // No step has found rates of density yet.
+            let of = (&self.mesh, &self.groups[..]);
+            self.allowed.density = outset::first(of, (&self.state, &self.contacts), &self.walls);
+        }
         let dt = self.votes.cast([
-            (Voter::Sound, self.crossing()),
+            (Voter::Sound, cfl * sound),
             (Voter::Density, self.allowed.density),
             (Voter::Elements, after(self.demand.rate)),
             (Voter::Contacts, after(contacts)),
@@ -625,6 +626,7 @@ impl Simulation {
             + self.surfaces.bytes()
             + self.mesh.bytes()
             + self.touched.capacity()
+            + self.stirring.capacity()
     }
 }
 

@@ -172,6 +172,13 @@ fn records_say_what_ran() {
     assert!(said.err.contains(" runs of heat-chain;"), "{}", said.err);
 }
 
+/// Input that is quoted in a message does nothing to the terminal.
+#[test]
+fn codes_for_the_terminal_are_shown() {
+    let said = refusal(&["run", "noh", "--set", "b\u{202e}o\u{1b}[31m=1"]);
+    assert!(said.contains("`--set b\\u{202e}o\\u{1b}[31m=1`: there is no "), "{said}");
+}
+
 /// What is said to wrong input.
 #[test]
 fn wrong_input_is_refused() {

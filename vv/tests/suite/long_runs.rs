@@ -19,13 +19,13 @@ use whipple_vv::suite::scene_of;
 use crate::common::{SHORT_ROD, Said, case, cut_short, key, said, whipple};
 
 /// Arguments of a run of the short rod, some sixty steps in a microsecond.
-fn short_rod() -> Vec<&'static str> {
+pub fn short_rod() -> Vec<&'static str> {
     let sets = SHORT_ROD.into_iter().flat_map(|set| ["--set", set]);
     ["run", "long-rod"].into_iter().chain(sets).collect()
 }
 
 /// A variant that takes no pictures, which take longer than a short run.
-const PLAIN: [&str; 2] = ["--variant", "viscosity-1"];
+pub const PLAIN: [&str; 2] = ["--variant", "viscosity-1"];
 
 /// Runs the short rod in a folder, without pictures.
 fn rod(folder: &Path, args: &[&str]) -> Said {
@@ -33,7 +33,7 @@ fn rod(folder: &Path, args: &[&str]) -> Said {
 }
 
 /// A run must end well.
-fn assert_well(said: &Said) {
+pub fn assert_well(said: &Said) {
     assert_eq!((said.code, errors(said).as_str()), (Some(0), ""));
 }
 
@@ -92,7 +92,7 @@ fn sections(path: &Path) -> BTreeMap<String, Vec<u8>> {
 }
 
 /// Names of the files below a folder.
-fn names(folder: &Path) -> Vec<String> {
+pub fn names(folder: &Path) -> Vec<String> {
     let entries = fs::read_dir(folder).expect("a folder");
     let name = |entry: std::io::Result<fs::DirEntry>| entry.expect("an entry").file_name();
     let mut names: Vec<String> =
@@ -102,7 +102,7 @@ fn names(folder: &Path) -> Vec<String> {
 }
 
 /// Two folders of the same run: record, ledger, frames and the last state have the same bits.
-fn assert_same_run(a: &Path, b: &Path) {
+pub fn assert_same_run(a: &Path, b: &Path) {
     assert_same_record(a, b);
     let read = |folder: &Path, name: &str| fs::read(folder.join(name)).expect("a file");
     for name in ["ledger.csv", "history.csv"] {

@@ -7,6 +7,8 @@ mod checkpoint_rotation;
 mod cli;
 mod common;
 mod convergence;
+mod fuzz;
+mod kills;
 mod long_runs;
 mod mapped;
 mod names;
