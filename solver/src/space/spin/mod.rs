@@ -4,11 +4,13 @@
 //! holds rotate on their own (`rigid.rs`). By the contact densities, as in the paper, all rotate on their own.
 
 mod held;
+mod mirrors;
 mod rigid;
 
 pub use self::rigid::{Rigid, half_lengths, inertia};
 
 use self::held::{Held, Site};
+use self::mirrors::{bars, bound, lies_on, mirrors_of};
 
 use nalgebra::{Rotation3, UnitQuaternion, Vector3};
 use rayon::prelude::*;
@@ -21,9 +23,6 @@ use super::symmetric::Symmetric;
 
 /// Members that one task looks at.
 const BLOCK: usize = 1024;
-
-/// One less the cosine between an axis of an ellipsoid and the normal of its mirror from which it counts as askew.
-const ASKEW: f64 = 1e-12;
 
 /// How a particle lies and rotates now, as contacts see it.
 #[derive(Debug, Clone, Copy, Default)]
@@ -463,64 +462,5 @@ impl Spins {
             + self.ellipsoids.capacity() * std::mem::size_of::<PerBody>()
             + self.mirrors.capacity()
             + self.leaving.capacity() * std::mem::size_of::<(u32, UnitQuaternion<f64>)>()
-    }
-}
-
-/// Whether mirrors, by the bits of their axes, bar torques about an axis: one is normal to another.
-fn bars(mirrors: u8, axis: usize) -> bool {
-    mirrors & !(1 << axis) != 0
-}
-
-/// Whether an ellipsoid has an axis along the normal of every one of these mirrors. One that lies askew has no image that it
-/// could turn with, and does not turn; nor do round ones that could, whatever their axes.
-fn lies_on(rigid: &Rigid, mirrors: u8) -> bool {
-    let axes = rigid.axes();
-    let along = |normal: usize| axes.iter().any(|own| own[normal].abs() > 1.0 - ASKEW);
-    (0..3).all(|normal| mirrors >> normal & 1 == 0 || along(normal))
-}
-
-/// Takes what these mirrors do not let be from the angular momentum of what lies on them.
-fn bound(rigid: &mut Rigid, mirrors: u8) {
-    let lies = lies_on(rigid, mirrors);
-    let mut momentum: [f64; 3] = (rigid.turn * rigid.momentum).into();
-    for (d, momentum) in momentum.iter_mut().enumerate() {
-        if !lies || bars(mirrors, d) {
-            *momentum = 0.0;
-        }
-    }
-    rigid.momentum = rigid.turn.inverse_transform_vector(&momentum.into());
-}
-
-/// Mirrors that a particle lies on.
-fn mirrors_of(mirrors: &[u8], i: usize) -> u8 {
-    mirrors.get(i).copied().unwrap_or(0)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// About its middle axis, along which the normal lies but for round-off, nothing tips over.
-    #[test]
-    fn what_lies_on_a_mirror_does_not_tip_over() {
-        let softness = Vector3::new(1.0, 0.5, 0.25);
-        let turn = UnitQuaternion::from_euler_angles(std::f64::consts::FRAC_PI_2, 0.0, 0.3);
-        let start = Rigid { turn, momentum: turn.inverse() * Vector3::new(0.0, 0.0, 3.0) };
-        let (mut alone, mut on, mut tips) = (start, start, false);
-        for _ in 0..20_000 {
-            alone.rotate(&softness, 0.02);
-            on.rotate_about(2, &softness, 0.02);
-            tips |= !lies_on(&alone, 0b100);
-            assert!(lies_on(&on, 0b100));
-        }
-        assert!(tips);
-        assert!(((on.turn * on.momentum).z / 3.0 - 1.0).abs() < 1e-11);
-        // Askew, and on two mirrors, nothing turns at all.
-        let energy = |rigid: &Rigid| rigid.momentum.dot(&rigid.momentum.component_mul(&softness));
-        assert!((energy(&on) / energy(&start) - 1.0).abs() < 1e-11);
-        let mut askew = Rigid { turn: UnitQuaternion::from_euler_angles(0.3, 0.5, 0.0), ..start };
-        bound(&mut askew, 0b100);
-        bound(&mut on, 0b101);
-        assert_eq!([askew.momentum, on.momentum], [Vector3::zeros(); 2]);
     }
 }
