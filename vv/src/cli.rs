@@ -23,6 +23,7 @@ mod reports;
 mod results;
 mod resume;
 mod run;
+mod sensitivity;
 mod sizes;
 mod times;
 
@@ -198,6 +199,10 @@ struct VvArgs {
     /// one, says all of it and writes no record
     #[arg(long, value_name = "SEED", requires = "random", default_value_t = 0)]
     from: u64,
+    /// With `hard`: how far the numbers of impacts move with time step, lattice, viscosity and constants of failure;
+    /// cases named after the group are studied alone
+    #[arg(long, conflicts_with = "random")]
+    sensitivity: bool,
     /// Folder of the report: one that is there is drawn anew, with the records of its other runs
     #[arg(long, value_name = "DIR", default_value = "reports")]
     out: PathBuf,
@@ -368,6 +373,12 @@ impl From<crate::files::FileError> for Failure {
     }
 }
 
+impl From<crate::lock::LockError> for Failure {
+    fn from(error: crate::lock::LockError) -> Self {
+        Self::usage(error)
+    }
+}
+
 impl From<crate::hard::HardError> for Failure {
     fn from(error: crate::hard::HardError) -> Self {
         Self::usage(error)
@@ -416,6 +427,7 @@ pub fn main() -> u8 {
 fn vv(args: &VvArgs) -> Result<u8, Failure> {
     match args.random {
         Some(count) => random::random(args, count),
+        None if args.sensitivity => sensitivity::sensitivity(args),
         None if args.cases.iter().any(|name| name == hard::GROUP) => hard::hard(args),
         None => reports::vv(args),
     }

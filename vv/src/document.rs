@@ -6,6 +6,7 @@ mod case;
 mod deviations;
 mod front;
 pub mod hard;
+pub mod sensitivity;
 
 use whipple_solver::method::Preset;
 

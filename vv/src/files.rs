@@ -5,6 +5,9 @@ use std::fs::{self, File, OpenOptions};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
+/// What the names of temporary files begin and end with; letters and digits stand between.
+const TEMPORARY: [&str; 2] = [".whipple-", ".tmp"];
+
 /// A write that failed. Unless the operation is [`Operation::SyncFolder`], the earlier file (or its
 /// absence) is unchanged.
 #[derive(Debug, thiserror::Error)]
@@ -29,6 +32,8 @@ pub enum Operation {
     Inspect,
     /// Making the temporary file beside the target (or opening a device).
     CreateFile,
+    /// Removing a temporary file that a killed program has left.
+    Remove,
     /// Writing the bytes and bringing them to the disk.
     Write,
     /// Putting the temporary file in the place of the target.
@@ -43,6 +48,7 @@ impl fmt::Display for Operation {
             Self::CreateFolder => "make the folder",
             Self::Inspect => "look at",
             Self::CreateFile => "create",
+            Self::Remove => "remove",
             Self::Write => "write",
             Self::Replace => "replace",
             Self::SyncFolder => "bring to the disk the folder of",
@@ -123,6 +129,27 @@ pub fn ensure_writable_dir(path: &Path) -> Result<(), FileError> {
         .map_err(failed(path, Operation::Write))
 }
 
+/// Removes the temporary files that programs which were killed within a write have left in `folder`. No other
+/// program may write there meanwhile.
+///
+/// # Errors
+/// [`FileError`] if the folder cannot be read, or such a file not be removed.
+pub fn sweep(folder: &Path) -> Result<(), FileError> {
+    let entries = fs::read_dir(folder).map_err(failed(folder, Operation::Inspect))?;
+    for entry in entries {
+        let path = entry.map_err(failed(folder, Operation::Inspect))?.path();
+        let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
+        let [begin, end] = TEMPORARY;
+        let inner = name.strip_prefix(begin).and_then(|rest| rest.strip_suffix(end));
+        if inner.is_some_and(|inner| inner.chars().all(|c| c.is_ascii_alphanumeric()))
+            && path.is_file()
+        {
+            fs::remove_file(&path).map_err(failed(&path, Operation::Remove))?;
+        }
+    }
+    Ok(())
+}
+
 /// [`write_atomic`] with the bytes produced by `fill`.
 fn replace_with(
     path: &Path,
@@ -174,7 +201,8 @@ fn temporary_in(folder: &Path) -> io::Result<tempfile::NamedTempFile> {
     let ordinary = <fs::Permissions as std::os::unix::fs::PermissionsExt>::from_mode(0o666);
     #[cfg(unix)]
     builder.permissions(ordinary);
-    builder.prefix(".whipple-").suffix(".tmp").tempfile_in(folder)
+    let [begin, end] = TEMPORARY;
+    builder.prefix(begin).suffix(end).tempfile_in(folder)
 }
 
 /// Brings the entries of `folder` to the disk; file systems that cannot do this are accepted.

@@ -1,22 +1,27 @@
 //! `whipple vv hard`: set-ups that try to break the solver, each with a number that decides.
 //!
-//! Set-up, pass number and severity are those of `references/hard_cases.toml`. A case measures and says
+//! Set-up, pass number and severity of H01 to H30 are those of `references/hard_cases.toml`, of W01 to W10, which are
+//! this project's own, those of `references/own_cases.toml`. A case measures and says
 //! what it found; a numerical failure is a failed number with the message of the solver. Every case runs
 //! with the densities of `default` and with `paper`. Beside them stand small [`random`] impacts, of which properties are
 //! looked at that hold of any scene.
 
+mod bursts;
 mod contact;
 mod dust;
 mod forms;
 mod frames;
 mod gas;
 mod measure;
+mod meetings;
 mod modes;
 mod numerics;
 pub mod random;
 mod record;
 mod rotation;
+mod scales;
 mod scenes;
+pub mod sensitivity;
 mod sheet;
 mod shocks;
 mod stated;
@@ -59,8 +64,8 @@ const fn not(id: &'static str, reason: &'static str) -> HardCase {
     HardCase { id, answer: Answer::Not(reason) }
 }
 
-/// All cases, in the order of the list.
-pub const ALL: [HardCase; 30] = [
+/// All cases, in the order of the lists.
+pub const ALL: [HardCase; 40] = [
     run("H01", frames::boosted),
     run("H02", frames::turned),
     run("H03", waves::pulled),
@@ -97,6 +102,16 @@ pub const ALL: [HardCase; 30] = [
     run("H28", forms::one_fast_particle),
     run("H29", numerics::neighbours),
     run("H30", gas::wall_heating),
+    run("W01", meetings::needle),
+    run("W02", meetings::corners),
+    run("W03", meetings::cradle),
+    run("W04", scales::units),
+    run("W05", scales::far_away),
+    run("W06", meetings::wedge),
+    run("W07", bursts::hot_spot),
+    run("W08", meetings::collapse),
+    run("W09", scales::looks),
+    run("W10", bursts::foils),
 ];
 
 /// The schemes that every case runs with: the densities of `default`, its own first, and `paper`.

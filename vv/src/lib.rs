@@ -12,6 +12,7 @@ pub mod files;
 pub mod godunov;
 pub mod hard;
 pub mod keys;
+pub mod lock;
 pub mod memory;
 pub mod norms;
 pub mod overrides;

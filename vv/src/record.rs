@@ -336,7 +336,7 @@ impl Provenance {
             build: concat!(env!("WHIPPLE_PROFILE"), ", ", env!("WHIPPLE_TARGET")).into(),
             cpu: cpu(),
             os: std::env::consts::OS.into(),
-            date: humantime::format_rfc3339_seconds(std::time::SystemTime::now()).to_string(),
+            date: date(std::time::SystemTime::now()),
             command,
         }
     }
@@ -346,6 +346,11 @@ impl Provenance {
     pub fn is_stale(&self) -> bool {
         self.fingerprint != FINGERPRINT
     }
+}
+
+/// A time as RFC 3339 has it, to the second. A clock that stands before 1970 says 1970.
+fn date(now: std::time::SystemTime) -> String {
+    humantime::format_rfc3339_seconds(now.max(std::time::UNIX_EPOCH)).to_string()
 }
 
 fn commit() -> String {

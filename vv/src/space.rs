@@ -2,6 +2,7 @@
 //! pictures, and what writes them while the run goes on.
 
 pub mod checkpoint;
+pub mod diagnosis;
 pub mod frames;
 pub mod history;
 pub mod measured;

@@ -5,7 +5,8 @@ use whipple_solver::method::{Density, Integrator, Preset};
 use super::sizes::expect;
 use super::{Bench, BenchArgs, Failure, NUMERICAL_FAILURE, print, say};
 use crate::cost::{Comparison, Contender, CostError, EQUAL_LIST, compare};
-use crate::files::{ensure_writable_dir, write_atomic};
+use crate::files::write_atomic;
+use crate::lock::FolderLock;
 use crate::memory::Keeps;
 use crate::pace::rivals::{self, Contest, Rival};
 use crate::pace::{self, PaceError, Stretch, measure};
@@ -36,9 +37,7 @@ impl From<PaceError> for Failure {
 /// Measures what was asked for and prints it.
 pub(super) fn bench(args: &BenchArgs) -> Result<u8, Failure> {
     let wants = |what: Bench| args.what.is_empty() || args.what.contains(&what);
-    if let Some(out) = &args.out {
-        ensure_writable_dir(out)?;
-    }
+    let _lock = args.out.as_deref().map(FolderLock::take).transpose()?;
     if wants(Bench::Density) {
         density(args)?;
     }

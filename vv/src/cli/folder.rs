@@ -5,13 +5,16 @@ use std::path::{Path, PathBuf};
 
 use super::Failure;
 use crate::checkpoint::{Reader, list};
+use crate::files::write_atomic;
 use crate::record::{RunRecord, files_in};
 use crate::report;
 use crate::run::Request;
 use crate::scene::AnyScene;
 use crate::space::checkpoint::{command_in, scene_hash};
+use crate::space::diagnosis::FAILURE;
 use crate::space::recorder::{FRAMES, LEDGER};
 use crate::suite::records_folder;
+use crate::vtk::Collection;
 
 /// Name of the record in the folder of a run.
 pub(super) const RECORD: &str = "record.json";
@@ -20,6 +23,8 @@ pub(super) const SCENE: &str = "scene.toml";
 /// Names of the fields and of the histories.
 pub(super) const PROFILE: &str = "profile.csv";
 pub(super) const HISTORY: &str = "history.csv";
+/// Name of the file with the command of the run that fills the folder, until it has ended.
+const UNFINISHED: &str = "unfinished.txt";
 
 /// What a folder holds that a run may not start anew in.
 enum Other {
@@ -70,6 +75,17 @@ pub(super) fn refuse_another_run(
     if known {
         return Ok(());
     }
+    match begun(out) {
+        // It was killed before its first checkpoint, and is made anew.
+        Some(command) if command == request.command => return Ok(()),
+        Some(command) => {
+            return Err(Failure::usage(format!(
+                "{folder} holds another run, `{command}`, which has left no state to go on from: name another \
+                 folder with --out, or delete that one"
+            )));
+        }
+        None => {}
+    }
     // A run that goes on reads ledger and frames, and refuses what is none of its own.
     let [frames, index] = FRAMES;
     let anew = [out.join(LEDGER), out.join(frames).join(index)];
@@ -99,16 +115,40 @@ fn refuse_files(paths: impl Iterator<Item = PathBuf>) -> Result<(), Failure> {
     }
 }
 
+/// The command of a run that has begun in a folder and left no state to go on from.
+fn begun(out: &Path) -> Option<String> {
+    let none = list(out).is_ok_and(|checkpoints| checkpoints.is_empty());
+    let text = fs::read_to_string(out.join(UNFINISHED)).ok().filter(|_| none)?;
+    Some(text.trim_end().to_owned())
+}
+
+/// Says in the folder which run fills it from now on.
+pub(super) fn begin(out: &Path, command: &str) -> Result<(), Failure> {
+    Ok(write_atomic(&out.join(UNFINISHED), format!("{command}\n").as_bytes())?)
+}
+
+/// The run that fills the folder has ended.
+pub(super) fn end(out: &Path) -> Result<(), Failure> {
+    remove(&out.join(UNFINISHED))
+}
+
 /// Takes away what an earlier run of the same left, before it starts anew: a checkpoint of it is none of
 /// the run that now fills the ledger.
 pub(super) fn clear(out: &Path) -> Result<(), Failure> {
-    let old = list(out).unwrap_or_default().into_iter().chain([out.join(RECORD)]);
-    for path in old.filter(|path| path.exists()) {
-        fs::remove_file(&path).map_err(|error| {
-            Failure::usage(format!("cannot remove {}: {error}", path.display()))
-        })?;
+    let old = list(out).unwrap_or_default();
+    let own = [RECORD, LEDGER].map(|name| out.join(name));
+    let frames =
+        [FRAMES, FAILURE].map(|[sub, index]| Collection::files(&out.join(sub).join(index)));
+    old.iter().chain(&own).chain(frames.iter().flatten()).try_for_each(|path| remove(path))
+}
+
+fn remove(path: &Path) -> Result<(), Failure> {
+    match fs::remove_file(path) {
+        Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
+            Err(Failure::usage(format!("cannot remove {}: {error}", path.display())))
+        }
+        _ => Ok(()),
     }
-    Ok(())
 }
 
 /// What keeps a run from a folder with this record and these checkpoints, the newest first.

@@ -6,6 +6,7 @@ use super::{CLAIM_FAILED, Failure, VvArgs, print, say};
 use crate::cases::Level;
 use crate::files::ensure_writable_dir;
 use crate::hard::{ALL, Extent, HardCase, HardRecord, HardRecords, SCHEMES, folder, holds, stated};
+use crate::lock::FolderLock;
 use crate::suggest::did_you_mean;
 use crate::words::counted;
 
@@ -19,7 +20,7 @@ pub(super) fn hard(args: &VvArgs) -> Result<u8, Failure> {
     if HardRecords::read(&records)?.iter().next().is_none() {
         refuse_no_report(&args.out, &[])?;
     }
-    ensure_writable_dir(&args.out)?;
+    let _lock = FolderLock::take(&args.out)?;
     ensure_writable_dir(&records)?;
     let extent = if args.level == Level::Quick { Extent::Quick } else { Extent::Stated };
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
@@ -52,7 +53,7 @@ fn chosen(names: &[String]) -> Result<Vec<HardCase>, Failure> {
         let same = |case: &&HardCase| case.id.eq_ignore_ascii_case(id);
         ALL.iter().find(same).copied().ok_or_else(|| {
             let hint = did_you_mean(id, ALL.iter().map(|case| case.id));
-            Failure::usage(format!("no hard case `{id}`{hint}; they are H01 to H30"))
+            Failure::usage(format!("no hard case `{id}`{hint}; they are H01 to H30 and W01 to W10"))
         })
     };
     ids.iter().map(find).collect()

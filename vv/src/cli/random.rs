@@ -2,9 +2,9 @@
 
 use super::hard::GROUP;
 use super::{CLAIM_FAILED, Failure, VvArgs, print, say};
-use crate::files::ensure_writable_dir;
 use crate::hard::folder;
 use crate::hard::random::{Broken, Ending, Examined, Impact, Outcome, RandomRecord, Threads};
+use crate::lock::FolderLock;
 use crate::words::counted;
 
 /// Seeds that a line of a table names.
@@ -28,7 +28,7 @@ pub(super) fn random(args: &VvArgs, count: usize) -> Result<u8, Failure> {
         return Ok(code(examined.broken.is_empty()));
     }
     let records = RandomRecord::folder(&folder(&args.out));
-    ensure_writable_dir(&records)?;
+    let _lock = FolderLock::take(&records)?;
     let mut record = RandomRecord::new(args.from);
     for seed in args.from..=last {
         let impact = Impact::of(seed);
@@ -171,6 +171,7 @@ mod tests {
             let args = VvArgs {
                 cases: cases.iter().map(ToString::to_string).collect(),
                 level: Level::Standard,
+                sensitivity: false,
                 random: Some(2),
                 from,
                 out: "nowhere".into(),

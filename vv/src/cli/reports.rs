@@ -17,7 +17,9 @@ use crate::cases::{ALL, Case, Level, woodward_colella};
 use crate::claims::{Status, Verdict, Weight};
 use crate::document;
 use crate::files::{ensure_writable_dir, write_atomic};
+use crate::hard::sensitivity::SensitivityRecord;
 use crate::hard::{self, HardRecords};
+use crate::lock::FolderLock;
 use crate::memory::Keeps;
 use crate::pictures::read_pictures;
 use crate::plots;
@@ -36,7 +38,7 @@ const NAMED: usize = 5;
 pub(super) fn vv(args: &VvArgs) -> Result<u8, Failure> {
     let cases = find_all(&args.cases)?;
     refuse_no_report(&args.out, if args.single_file { &[SINGLE_FILE] } else { &[] })?;
-    ensure_writable_dir(&args.out)?;
+    let _lock = FolderLock::take(&args.out)?;
     // Records that cannot be read tell nothing, and may be replaced by this very run.
     let records = Records::read(&records_folder(&args.out)).unwrap_or_default();
     for case in &cases {
@@ -156,6 +158,7 @@ pub(super) fn report(args: &ReportArgs) -> Result<u8, Failure> {
     if args.check {
         return check(&made, &args.out, args.single_file);
     }
+    let _lock = FolderLock::take(&args.out)?;
     let page = draw(&made, &args.out, args.single_file)?;
     conclude(made.verdicts.iter(), &[page])
 }
@@ -243,6 +246,8 @@ fn made(folder: &Path) -> Result<Made, Failure> {
     let verdicts = verdicts(&records);
     let (mut report, figures) = document::compose(&records, &verdicts);
     report.sections.extend(document::hard::section(&hard, &hard::stated()));
+    let studies = SensitivityRecord::read_all(&SensitivityRecord::folder(&hard::folder(folder)))?;
+    report.sections.extend(document::sensitivity::section(&studies));
     for figure in &figures {
         let svg = plots::render_svg(figure).map_err(Failure::usage)?;
         drawings.insert(figure.id.clone(), Drawing::Chart(svg));

@@ -2,24 +2,27 @@
 
 use std::path::Path;
 
+use whipple_solver::error::StepError;
 use whipple_solver::method::Preset;
 use whipple_solver::space;
 use whipple_solver::units::{Dimension, Units};
 
-use super::folder::{clear, refuse_another_run};
+use super::folder::{begin, clear, end, refuse_another_run};
 use super::progress::{Outlook, Progress};
 use super::results::{Bounds, json, text, write_outputs};
 use super::resume::{self, refusal, resume};
 use super::sizes::{cannot, foresee};
 use super::{Failure, INTERRUPTED, NUMERICAL_FAILURE, RunArgs, print, say};
 use crate::cases::{self, Case};
-use crate::files::ensure_writable_dir;
 use crate::keys;
+use crate::lock::FolderLock;
 use crate::memory::Keeps;
 use crate::overrides;
 use crate::record::{RunKey, Scheme};
 use crate::run::{Request, RunError, SpaceOptions, run_with};
 use crate::scene::AnyScene;
+use crate::space::checkpoint::load;
+use crate::space::diagnosis::Diagnosis;
 use crate::space::recorder::Recorder;
 use crate::suggest::did_you_mean;
 use crate::suite::{command_of, scene_of};
@@ -31,9 +34,9 @@ pub(super) fn run(args: &RunArgs) -> Result<u8, Failure> {
     let variant = variant(case, args)?;
     let (request, bounds, mut notes) = request(case, &variant, args)?;
     let scene = request.scene.clone();
-    let (options, outlook) = match &scene {
+    let (options, outlook, _lock) = match &scene {
         Some(AnyScene::Space(scene)) => options(scene, args, &request, &mut notes)?,
-        _ => (only_in_space(args, &request)?, Outlook::default()),
+        _ => (SpaceOptions::default(), Outlook::default(), only_in_space(args, &request)?),
     };
     let unit = scene.as_ref().map_or("", |scene| scene.units().label(Dimension::Time));
 
@@ -64,23 +67,43 @@ pub(super) fn run(args: &RunArgs) -> Result<u8, Failure> {
 
     if let Some(out) = &args.out {
         write_outputs(out, case, &done)?;
+        end(out)?;
     }
     print(&if args.json { json(&done.record)? } else { text(&bounds, &done.record) })?;
     match done.failure {
         Some(error) => {
-            let kept = done
-                .checkpoint
-                .map(|path| format!("; the last good state is kept in {}", path.display()));
-            let message = format!("{error}{}", kept.unwrap_or_default());
-            Err(Failure { code: NUMERICAL_FAILURE, message })
+            let told = match (&args.out, &done.checkpoint, &scene) {
+                (Some(out), Some(checkpoint), Some(AnyScene::Space(scene))) => {
+                    told(scene, &error, [out, checkpoint])
+                }
+                (None, _, Some(AnyScene::Space(_))) => {
+                    "; with --out DIR it keeps the last good state and says where it broke"
+                        .to_owned()
+                }
+                _ => String::new(),
+            };
+            Err(Failure { code: NUMERICAL_FAILURE, message: format!("{error}{told}") })
         }
         None => Ok(0),
     }
 }
 
-/// Makes the folder for the results of a run along a line; options that such a run has no use for are
+/// Where a run broke and the likely cause, and what is left of it. That it cannot be found out or drawn is said, and
+/// hides nothing.
+fn told(scene: &space::Scene, error: &StepError, [out, checkpoint]: [&Path; 2]) -> String {
+    let kept = format!("; the last good state is kept in {}", checkpoint.display());
+    let Ok(halted) = load(checkpoint, scene) else { return kept };
+    let Ok(Some(found)) = Diagnosis::new(scene, &halted.simulation, error) else { return kept };
+    let drawn = match found.draw(out) {
+        Ok(path) => format!("what lies near it is drawn in {}", path.display()),
+        Err(error) => format!("what lies near it cannot be drawn: {error}"),
+    };
+    format!("; {}; {drawn}{kept}", found.text())
+}
+
+/// Takes the folder for the results of a run along a line; options that such a run has no use for are
 /// refused.
-fn only_in_space(args: &RunArgs, request: &Request) -> Result<SpaceOptions, Failure> {
+fn only_in_space(args: &RunArgs, request: &Request) -> Result<Option<FolderLock>, Failure> {
     let given = [
         ("--vtu", args.vtu.is_some()),
         ("--resume", args.resume.is_some()),
@@ -91,28 +114,29 @@ fn only_in_space(args: &RunArgs, request: &Request) -> Result<SpaceOptions, Fail
         let message = format!("{option} needs a case in three dimensions, `{}` is none", args.case);
         return Err(Failure::usage(message));
     }
+    let lock = args.out.as_deref().map(FolderLock::take).transpose()?;
     if let Some(out) = &args.out {
         refuse_another_run(out, request, false, &request.command)?;
-        ensure_writable_dir(out)?;
     }
-    Ok(SpaceOptions::default())
+    Ok(lock)
 }
 
-/// What a run in three dimensions goes on from and leaves, and what to expect of it. Nothing is written
-/// before the checkpoint has been read.
+/// What a run in three dimensions goes on from and leaves, what to expect of it, and its folder. Nothing is
+/// written before the checkpoint has been read.
 fn options(
     scene: &space::Scene,
     args: &RunArgs,
     request: &Request,
     notes: &mut Vec<String>,
-) -> Result<(SpaceOptions, Outlook), Failure> {
+) -> Result<(SpaceOptions, Outlook, Option<FolderLock>), Failure> {
     let command = &request.command;
     let every = args.vtu.map(|every| every.in_units("--vtu", scene.units)).transpose()?;
     let from = args.resume.as_deref().map(|path| resume(path, scene, command)).transpose()?;
+    let lock = args.out.as_deref().map(FolderLock::take).transpose()?;
     let recorder = match &args.out {
         Some(out) => {
             refuse_another_run(out, request, from.is_some(), &repeated(args, command))?;
-            ensure_writable_dir(out)?;
+            begin(out, command)?;
             if from.is_none() {
                 clear(out)?;
             }
@@ -141,7 +165,7 @@ fn options(
         max_wall: args.max_wall,
     };
     let pictures = recorder.is_some();
-    Ok((SpaceOptions { from, recorder, pictures }, outlook))
+    Ok((SpaceOptions { from, recorder, pictures }, outlook, lock))
 }
 
 /// Refuses options that say what to leave in a folder where none is named.

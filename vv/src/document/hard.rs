@@ -32,8 +32,8 @@ pub fn section(records: &HardRecords, stated: &[Stated]) -> Option<Section> {
 fn about(records: &HardRecords) -> String {
     let stale = records.iter().filter(|record| record.is_stale()).count();
     let quick = records.iter().filter(|record| record.extent == Extent::Quick).count();
-    let mut text = "Set-ups that try to break the solver, from `references/hard_cases.toml`: each has numbers that \
-                    decide. `must` cases have to hold with `default`; the other schemes stand beside it. The number \
+    let mut text = "Set-ups that try to break the solver, from `references/hard_cases.toml` (H) and of this \
+                    project's own (W, `references/own_cases.toml`): each has numbers that decide. `must` cases have to hold with `default`; the other schemes stand beside it. The number \
                     shown is one that fails, or the one nearest to its bound. `whipple vv hard` runs them."
         .to_owned();
     if quick > 0 {

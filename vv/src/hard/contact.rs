@@ -126,11 +126,12 @@ fn gases(sheet: &mut Sheet, equal_mass: bool) -> Result<(), Trouble> {
         velocity: Profile::Uniform(state.velocity),
         energy: Profile::Uniform(state.energy()),
     };
-    // Of equal mass the light gas is a thousand times as coarse: 20 particles need a long tube.
+    // Of equal mass the light gas is a thousand times as coarse: so many particles need a long tube, and the heavy gas
+    // has to be so long that nothing comes back from its end.
     let (heavy_length, light_length, light_count) =
-        if equal_mass { (1.0, 50.0, 20) } else { (1.0, 2.0, 2 * fine) };
-    let heavy_count = if equal_mass { 400 } else { fine };
-    let time = if equal_mass { 8.0 } else { 0.4 };
+        if equal_mass { (4.0, 500.0, 200) } else { (1.0, 2.0, 2 * fine) };
+    let heavy_count = if equal_mass { 1600 } else { fine };
+    let time = if equal_mass { 80.0 } else { 0.4 };
     let pushed = Boundary::Pressure(1e-3);
     let scene = Line {
         name: "hard".into(),

@@ -17,7 +17,7 @@ const SCHEMA: u32 = 1;
 pub struct HardRecord {
     /// Version of the format.
     pub schema: u32,
-    /// The case, H01 to H30.
+    /// The case, H01 to H30 or W01 to W10.
     pub id: String,
     /// What ran.
     pub scheme: Scheme,

@@ -178,7 +178,7 @@ pub(super) fn march(simulation: &mut Simulation, steps: usize) -> Result<(), Tro
 }
 
 /// Most steps of a run: one whose steps get so short is given up.
-const MOST_STEPS: u64 = 80_000;
+const MOST_STEPS: u64 = 200_000;
 
 /// Steps until a time.
 ///

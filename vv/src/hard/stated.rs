@@ -2,8 +2,11 @@
 
 use serde::Deserialize;
 
-/// The list, as it stands in `references/`.
-const LIST: &str = include_str!("../../../references/hard_cases.toml");
+/// The lists, as they stand in `references/`: the given one, and that of this project's own invention.
+const LISTS: [&str; 2] = [
+    include_str!("../../../references/hard_cases.toml"),
+    include_str!("../../../references/own_cases.toml"),
+];
 
 /// How much a failure weighs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
@@ -30,7 +33,7 @@ impl Severity {
 #[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Stated {
-    /// Its name in commands and tables, H01 to H30.
+    /// Its name in commands and tables, H01 to H30 and W01 to W10.
     pub id: String,
     /// What it is called.
     pub name: String,
@@ -45,12 +48,13 @@ pub struct Stated {
     pub severity: Severity,
 }
 
-/// The list of hard cases; empty if it cannot be read, which a test excludes.
+/// The hard cases of both lists; without those of one that cannot be read, which a test excludes.
 #[must_use]
 pub fn stated() -> Vec<Stated> {
     #[derive(Deserialize)]
     struct List {
         case: Vec<Stated>,
     }
-    toml::from_str::<List>(LIST).map(|list| list.case).unwrap_or_default()
+    let read = |list: &str| toml::from_str::<List>(list).map(|list| list.case).unwrap_or_default();
+    LISTS.into_iter().flat_map(read).collect()
 }

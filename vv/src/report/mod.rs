@@ -21,6 +21,7 @@ pub use number::sig;
 pub use sheet::csv;
 pub use write::{INDEX, TEXT, write};
 
+use crate::files::Cause;
 use crate::plots::PlotError;
 use std::path::PathBuf;
 use thiserror::Error;
@@ -52,7 +53,7 @@ pub enum ReportError {
         source: PlotError,
     },
     /// The file system refused.
-    #[error("cannot {action} `{path}`: {source}", path = path.display())]
+    #[error("cannot {action} `{path}`: {cause}", path = path.display(), cause = Cause::from(source))]
     Io {
         /// What was tried.
         action: &'static str,

@@ -41,8 +41,23 @@ impl Frames {
     /// # Errors
     /// As [`Collection::record`].
     pub fn record(&mut self, simulation: &Simulation) -> Result<(), VtkError> {
-        let particles: Vec<Particle> = simulation.all_particles().collect();
-        let elements: Vec<Element> = simulation.all_elements().collect();
+        self.record_some(simulation, |_| true)
+    }
+
+    /// Adds a part of the present state: some particles, and the elements that have all of theirs among them.
+    ///
+    /// # Errors
+    /// As [`Collection::record`].
+    pub fn record_some(
+        &mut self,
+        simulation: &Simulation,
+        wanted: impl Fn(&Particle) -> bool,
+    ) -> Result<(), VtkError> {
+        let particles: Vec<Particle> = simulation.all_particles().filter(wanted).collect();
+        let ids = |element: &Element| element.corners.into_iter().chain([element.centre]);
+        let known = |id: u32| particles.binary_search_by_key(&id, |p| p.id).is_ok();
+        let elements: Vec<Element> =
+            simulation.all_elements().filter(|e| ids(e).all(known)).collect();
         self.particles(simulation, &particles)?;
         self.elements(simulation.time(), &elements, &particles)
     }
@@ -53,11 +68,13 @@ impl Frames {
         particles: &[Particle],
     ) -> Result<(), VtkError> {
         let points: Vec<[f64; 3]> = particles.iter().map(|p| p.position).collect();
-        let column = |of: fn(&Particle) -> f64| particles.iter().map(of).collect::<Vec<f64>>();
-        let velocity: Vec<f64> = particles.iter().flat_map(|p| p.velocity).collect();
+        let column = |of: fn(&Particle) -> f64| {
+            particles.iter().map(|p| single(of(p))).collect::<Vec<f64>>()
+        };
+        let mass: Vec<f64> = particles.iter().map(|p| p.mass).collect();
+        let velocity: Vec<f64> = particles.iter().flat_map(|p| p.velocity).map(single).collect();
         let id: Vec<u32> = particles.iter().map(|p| p.id).collect();
         let body: Vec<u32> = particles.iter().map(|p| p.body as u32).collect();
-        let mass = column(|p| p.mass);
         let fields = [
             ("density", column(|p| p.rho)),
             ("pressure", column(|p| p.pressure)),
@@ -71,7 +88,7 @@ impl Frames {
             Field::scalar("mass", Values::Float64(&mass)),
             Field::new("velocity", 3, Values::Float32(&velocity)),
         ];
-        point_data.extend(fields.iter().map(single));
+        point_data.extend(fields.iter().map(in_single));
         let shapes: Vec<f64> = if simulation.rotates() {
             particles.iter().flat_map(|p| shape(simulation, p)).collect()
         } else {
@@ -99,10 +116,11 @@ impl Frames {
         let points: Vec<[f64; 3]> = particles[..nodes].iter().map(|p| p.position).collect();
         let ring = |e: &Element| e.ring().map(|id| at[id as usize]);
         let hexahedra: Vec<[u32; 8]> = elements.iter().map(ring).collect();
-        let column = |of: fn(&Element) -> f64| elements.iter().map(of).collect::<Vec<f64>>();
+        let column =
+            |of: fn(&Element) -> f64| elements.iter().map(|e| single(of(e))).collect::<Vec<f64>>();
         let centre = |of: fn(&Particle) -> f64| {
             let centres = elements.iter().map(|e| &particles[at[e.centre as usize] as usize]);
-            centres.map(of).collect::<Vec<f64>>()
+            centres.map(|p| single(of(p))).collect::<Vec<f64>>()
         };
         let body: Vec<u32> = elements.iter().map(|e| e.body as u32).collect();
         let live: Vec<u8> = elements.iter().map(|e| u8::from(e.live)).collect();
@@ -120,7 +138,7 @@ impl Frames {
             Field::scalar("live", Values::UInt8(&live)),
             Field::scalar("failed", Values::UInt8(&failed)),
         ];
-        cell_data.extend(fields.iter().map(single));
+        cell_data.extend(fields.iter().map(in_single));
         let cells = Cells::elements(&hexahedra);
         let grid = Grid { points: &points, cells, point_data: Vec::new(), cell_data };
         self.collection.record(time, "elements", &grid)?;
@@ -141,8 +159,13 @@ fn shape(simulation: &Simulation, particle: &Particle) -> [f64; 6] {
     })
 }
 
+/// What single precision cannot hold, as it may be where a run breaks, is not a number: not defined.
+fn single(value: f64) -> f64 {
+    if value.abs() > f64::from(f32::MAX) { f64::NAN } else { value }
+}
+
 /// A field in single precision.
-fn single<'a>((name, values): &'a (&'a str, Vec<f64>)) -> Field<'a> {
+fn in_single<'a>((name, values): &'a (&'a str, Vec<f64>)) -> Field<'a> {
     Field::scalar(name, Values::Float32(values))
 }
 

@@ -62,6 +62,25 @@ impl Collection {
         Ok(collection)
     }
 
+    /// Files on the disk that are the index at `path`, or named after it as its states are.
+    #[must_use]
+    pub fn files(path: &Path) -> Vec<PathBuf> {
+        let Ok(Self { stem, .. }) = Self::new(path) else { return Vec::new() };
+        let own = |name: &str| {
+            let inner = name.strip_prefix(&stem)?.strip_prefix('-')?.strip_suffix(".vtu")?;
+            let (part, number) = inner.rsplit_once('-')?;
+            let digits = number.len() >= 6 && number.chars().all(|c| c.is_ascii_digit());
+            (digits && is_part(part)).then_some(())
+        };
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+        let states = entries.map(|entry| entry.path()).filter(|state| {
+            let name = state.file_name().and_then(|name| name.to_str());
+            name.is_some_and(|name| own(name).is_some())
+        });
+        states.chain(Some(path.to_owned()).filter(|path| path.exists())).collect()
+    }
+
     /// The states, by time.
     #[must_use]
     pub fn entries(&self) -> &[Entry] {

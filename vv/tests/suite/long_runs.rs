@@ -420,6 +420,11 @@ fn failure_leaves_the_last_good_state() {
         failed.err.trim_end().split_once("last good state is kept in ").expect("a name");
     let reader = Reader::open_any(&at.join(path)).expect("a checkpoint");
     assert!(reader.meta().step > 0);
+    let told = "before that step particle 0, of `rod`, was at (";
+    assert!(failed.err.contains(told), "{}", failed.err);
+    assert!(failed.err.contains("likely cause: it is "), "{}", failed.err);
+    let near = names(&at.join("bad/failure"));
+    assert_eq!(near, ["near-elements-000000.vtu", "near-particles-000000.vtu", "near.pvd"]);
     // The run goes on from there, to the same end.
     let again = rod(at, &[&args[..], &["--resume", path]].concat());
     assert_eq!(again.code, Some(3));

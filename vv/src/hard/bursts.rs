@@ -1,0 +1,104 @@
+//! Energy in too small a place, and a shield of many foils.
+
+use whipple_solver::space::Simulation;
+use whipple_solver::space::output::Particle;
+use whipple_solver::space::scene::{Body, Shape};
+
+use super::contact::brittle;
+use super::measure::{energy, largest};
+use super::scenes::{ALUMINIUM, HEAT, STEEL, begin, block, body, scene};
+use super::sheet::{Bound, Sheet};
+
+/// Edge of a cell in cm.
+const EDGE: f64 = 0.1;
+
+/// W07: a cell in a block of steel is given far more energy than vapour has.
+pub(super) fn hot_spot(sheet: &mut Sheet) {
+    // Energy per mass: 10 and 1000 kJ/g.
+    for heat in [0.1, 10.0] {
+        sheet.part(format!("one cell of steel with {} kJ/g", 100.0 * heat), |sheet| {
+            let [density, _, _, gamma_0, _] = STEEL.constants;
+            let n = sheet.size(15, 9);
+            let metal = STEEL.ductile([0.0075, 5.67, 0.49, 1700.0]);
+            let scene = scene(sheet.space(), vec![metal], vec![block("steel", [n; 3], EDGE)]);
+            let hot = |p: &Particle| p.position.iter().all(|x| x.abs() < 0.51 * EDGE);
+            let pressure = gamma_0 * density * heat;
+            let mut simulation =
+                begin(
+                    &scene,
+                    HEAT,
+                    |p| {
+                        if hot(p) { [heat, pressure, pressure] } else { [0.0; 3] }
+                    },
+                )?;
+            let first = simulation.step(f64::INFINITY).map(|()| simulation.last_step())?;
+            let mut shortest = first;
+            while simulation.time() < 3.0 {
+                simulation.step(f64::INFINITY)?;
+                shortest = shortest.min(simulation.last_step());
+            }
+            let finite = |p: &Particle| (p.u + p.rho + p.pressure + p.theta).is_finite();
+            let bad = simulation.all_particles().filter(|p| !finite(p)).count();
+            sheet.at_most("particles that are no numbers", bad as f64, 0.0);
+            sheet.at_least("shortest step over the first", shortest / first, 1e-3);
+            sheet.at_most("error of the momentum", momentum(&simulation), 1e-12);
+            sheet.shown("elements that have died", simulation.failed().1 as f64);
+            energy(sheet, &simulation);
+            Ok(())
+        });
+    }
+}
+
+/// Momentum that came of nothing, over the sum of the sizes of all.
+fn momentum(simulation: &Simulation) -> f64 {
+    let of = |p: &Particle| p.velocity.map(|v| p.mass * v);
+    let sum = |d: usize| simulation.all_particles().map(|p| of(&p)[d]).sum::<f64>();
+    let sizes: f64 = simulation.all_particles().flat_map(|p| of(&p)).map(f64::abs).sum();
+    largest([sum(0), sum(1), sum(2)]) / sizes
+}
+
+/// W10: a sphere at 6 km/s through five foils of one cell each, a centimetre apart.
+pub(super) fn foils(sheet: &mut Sheet) {
+    sheet.part("aluminium sphere through five foils at 6 km/s", |sheet| {
+        let n = sheet.size(6, 4);
+        let foils = sheet.size(5, 2);
+        let sphere = Body {
+            name: "sphere".into(),
+            centre: [0.013, 0.021, 0.5 * n as f64 * EDGE + 0.6 * EDGE],
+            velocity: [0.0, 0.0, -0.6],
+            ..body("aluminium", Shape::Sphere { diameter: n as f64 * EDGE }, [n; 3])
+        };
+        let foil = |k: usize| Body {
+            name: format!("foil {}", k + 1),
+            centre: [0.0, 0.0, -0.5 * EDGE - k as f64],
+            ..block("aluminium", [4 * n, 4 * n, 1], EDGE)
+        };
+        let bodies = std::iter::once(sphere).chain((0..foils).map(foil)).collect();
+        let mut scene = scene(sheet.space(), vec![brittle(&ALUMINIUM)], bodies);
+        scene.stop_time = sheet.size(20.0, 6.0);
+        let mut simulation = Simulation::new(&scene)?;
+        let first = simulation.step(scene.stop_time).map(|()| simulation.last_step())?;
+        let mut shortest = first;
+        while simulation.time() < scene.stop_time {
+            simulation.step(scene.stop_time)?;
+            if simulation.time() < scene.stop_time {
+                shortest = shortest.min(simulation.last_step());
+            }
+        }
+        let balance = simulation.balance();
+        let hot = largest(simulation.all_particles().map(|p| p.theta));
+        sheet.at_least("shortest step over the first", shortest / first, 1e-3);
+        sheet.enter("highest temperature", "K", hot, Bound::AtMost(f64::MAX));
+        sheet.at_most("change of the mass", balance.mass_error(), 1e-15);
+        sheet.at_most("error of the momentum", balance.momentum_drift(), 1e-12);
+        let pushed = |body: usize| simulation.holdings()[body].momentum[2].abs();
+        let least = (1..simulation.bodies()).map(pushed).fold(f64::INFINITY, f64::min);
+        sheet.at_least(
+            "momentum of every foil over that of the sphere",
+            least / balance.initial.momentum[2].abs(),
+            1e-3,
+        );
+        energy(sheet, &simulation);
+        Ok(())
+    });
+}
