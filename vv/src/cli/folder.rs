@@ -80,8 +80,8 @@ pub(super) fn refuse_another_run(
         Some(command) if command == request.command => return Ok(()),
         Some(command) => {
             return Err(Failure::usage(format!(
-                "{folder} holds another run, `{command}`, which has left no state to go on from: name another \
-                 folder with --out, or delete that one"
+                "{folder} holds another run, `{command}`, which has left no state to go on from: that command makes it anew; \
+                 for this one name another folder with --out, or delete that one"
             )));
         }
         None => {}
