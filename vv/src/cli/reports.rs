@@ -227,7 +227,8 @@ struct Made {
 fn made(folder: &Path) -> Result<Made, Failure> {
     let there = records_folder(folder);
     let hard = HardRecords::read(&hard::folder(folder))?;
-    let without_hard = hard.iter().next().is_none();
+    let studies = SensitivityRecord::read_all(&SensitivityRecord::folder(&hard::folder(folder)))?;
+    let without_hard = hard.iter().next().is_none() && studies.is_empty();
     let nothing = |what: &str| {
         Failure::usage(format!(
             "no report in {}: {what}; `whipple vv --out {0}` makes one, --out names another",
@@ -246,7 +247,6 @@ fn made(folder: &Path) -> Result<Made, Failure> {
     let verdicts = verdicts(&records);
     let (mut report, figures) = document::compose(&records, &verdicts);
     report.sections.extend(document::hard::section(&hard, &hard::stated()));
-    let studies = SensitivityRecord::read_all(&SensitivityRecord::folder(&hard::folder(folder)))?;
     report.sections.extend(document::sensitivity::section(&studies));
     for figure in &figures {
         let svg = plots::render_svg(figure).map_err(Failure::usage)?;

@@ -1,6 +1,6 @@
 //! What hard cases read off simulations.
 
-use whipple_solver::space::Simulation;
+use whipple_solver::space::{Scene, Simulation};
 
 use super::sheet::{Sheet, Trouble};
 
@@ -41,12 +41,26 @@ pub(super) fn energy(sheet: &mut Sheet, simulation: &Simulation) {
     sheet.at_most("residual of the elements", balance.relative_residual().abs(), 1e-3);
 }
 
+/// Runs a scene to its end, and enters how short its steps got: a thousandth of the first at least. The last, which
+/// lands on the end, does not count.
+pub(super) fn to_the_end(sheet: &mut Sheet, scene: &Scene) -> Result<Simulation, Trouble> {
+    let end = scene.stop_time;
+    let mut simulation = Simulation::new(scene)?;
+    let first = simulation.step(end).map(|()| simulation.last_step())?;
+    let mut shortest = first;
+    while simulation.time() < end {
+        simulation.step(end)?;
+        if simulation.time() < end {
+            shortest = shortest.min(simulation.last_step());
+        }
+    }
+    sheet.at_least("shortest step over the first", shortest / first, 1e-3);
+    Ok(simulation)
+}
+
 /// The times of so many steps that are a fifth shorter than they could be: a run that stops at each of
 /// them takes one step to each, whatever round-off does to its own votes.
-pub(super) fn pace(
-    scene: &whipple_solver::space::Scene,
-    steps: usize,
-) -> Result<Vec<f64>, Trouble> {
+pub(super) fn pace(scene: &Scene, steps: usize) -> Result<Vec<f64>, Trouble> {
     let mut slower = scene.clone();
     slower.method.cfl *= 0.8;
     let mut simulation = Simulation::new(&slower)?;
