@@ -191,6 +191,9 @@ struct VvArgs {
     /// How much to run
     #[arg(long, value_parser = reports::levels(), default_value = Level::Standard.name())]
     level: Level,
+    /// With `hard`: not the other schemes, which take most of the time, but `default` alone, which the exit code is about
+    #[arg(long)]
+    default_only: bool,
     /// With `hard`: so many small random impacts instead of the cases, with what holds of any; the report does not
     /// show them
     #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = whole(SCENES))]

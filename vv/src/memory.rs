@@ -69,6 +69,7 @@ fn in_body(body: &Body) -> u64 {
         Shape::Box { .. } => 1.0,
         Shape::Cylinder { .. } => PI / 4.0,
         Shape::Sphere { .. } => PI / 6.0,
+        Shape::Skewed { .. } => body.shape.volume() / body.shape.extent().iter().product::<f64>(),
     };
     let [nodes, cells] =
         [1, 0].map(|more| body.cells.map(|n| (n + more) as f64).iter().product::<f64>());

@@ -81,7 +81,7 @@ pub fn cell_size(body: &Body) -> [f64; 3] {
             let scale = (area / nominal).sqrt();
             [even(0) * scale, even(1) * scale, even(2)]
         }
-        Shape::Sphere { .. } => {
+        Shape::Sphere { .. } | Shape::Skewed { .. } => {
             let ball = filled(&|i, j, k| inside(body, [i, j, k]), n3);
             let nominal = ball as f64 * even(0) * even(1) * even(2);
             let scale = (body.shape.volume() / nominal).cbrt();
@@ -93,16 +93,29 @@ pub fn cell_size(body: &Body) -> [f64; 3] {
 /// Whether a cell, by its coordinates along the body's own axes, belongs to the shape: by its centre
 /// and the shape inscribed in the box of the cells.
 fn inside(body: &Body, cell: [usize; 3]) -> bool {
-    let axes = match body.shape {
-        Shape::Box { .. } => 0,
-        Shape::Cylinder { .. } => 2,
-        Shape::Sphere { .. } => 3,
-    };
     let from_centre = |axis: usize| {
         let n = body.cells[axis] as f64;
         (2.0 * cell[axis] as f64 + 1.0 - n) / n
     };
+    let axes = match body.shape {
+        Shape::Box { .. } => 0,
+        Shape::Cylinder { .. } => 2,
+        Shape::Sphere { .. } => 3,
+        Shape::Skewed { size, lattice } => {
+            let (extent, axes) = (body.shape.extent(), lattice.axes());
+            let along =
+                |d: usize| -> f64 { (0..3).map(|k| from_centre(k) * extent[k] * axes[k][d]).sum() };
+            return (0..3).all(|d| along(d).abs() <= size[d]);
+        }
+    };
     (0..axes).map(|axis| from_centre(axis).powi(2)).sum::<f64>() <= 1.0
+}
+
+/// The axes of the lattice of a body.
+fn turned(body: &Body) -> [[f64; 3]; 3] {
+    let turn = body.turn.axes();
+    let Some(lattice) = body.shape.lattice() else { return turn };
+    lattice.axes().map(|axis| std::array::from_fn(|d| (0..3).map(|k| axis[k] * turn[k][d]).sum()))
 }
 
 impl Lattice {
@@ -111,10 +124,11 @@ impl Lattice {
     pub fn new(body: &Body) -> Self {
         let own = cell_size(body);
         let order = axis_order(body);
-        let turned = rotation(body.turn.axis, body.turn.degrees.to_radians());
+        let turned = turned(body);
         let (fast, slow) = (turned[order[0]], turned[order[2]]);
-        // Right-handed, whichever way the mid axis then points: the shapes are symmetric.
+        // Right-handed, whichever way the mid axis then points.
         let axes = [fast, cross(slow, fast), slow];
+        let flipped = dot(axes[1], turned[order[1]]) < 0.0;
         let size = order.map(|axis| own[axis]);
         let cells = order.map(|axis| body.cells[axis]);
         let mut origin = body.centre;
@@ -127,6 +141,9 @@ impl Lattice {
             let mut cell = [0; 3];
             for (axis, at) in order.into_iter().zip(at) {
                 cell[axis] = at;
+            }
+            if flipped {
+                cell[order[1]] = body.cells[order[1]] - 1 - cell[order[1]];
             }
             inside(body, cell)
         };

@@ -249,6 +249,23 @@ pub struct Turn {
     pub degrees: f64,
 }
 
+impl Turn {
+    /// What it makes of the coordinate axes.
+    #[must_use]
+    pub fn axes(&self) -> [[f64; 3]; 3] {
+        super::lattice::rotation(self.axis, self.degrees.to_radians())
+    }
+
+    /// Checks that it is a turn about an axis.
+    fn validate(&self, key: &str) -> Result<(), SceneError> {
+        for axis in 0..3 {
+            finite(&format!("{key}.axis.{axis}"), self.axis[axis])?;
+        }
+        positive(&format!("{key}.axis"), self.axis.iter().map(|a| a * a).sum())?;
+        finite(&format!("{key}.degrees"), self.degrees)
+    }
+}
+
 impl Default for Turn {
     fn default() -> Self {
         Self { axis: [0.0, 0.0, 1.0], degrees: 0.0 }
@@ -276,6 +293,14 @@ pub enum Shape {
         /// Diameter.
         diameter: f64,
     },
+    /// A box whose lattice is turned within it, so that its faces are stairs. Cells are counted along the axes of the
+    /// lattice, across the smallest box of that direction round it.
+    Skewed {
+        /// Edge lengths of the box.
+        size: [f64; 3],
+        /// Turn of the lattice within the box, before the body is turned.
+        lattice: Turn,
+    },
 }
 
 impl Shape {
@@ -287,6 +312,7 @@ impl Shape {
             Self::Box { size: [a, b, c] } => a * b * c,
             Self::Cylinder { diameter, length } => PI / 4.0 * diameter * diameter * length,
             Self::Sphere { diameter } => PI / 6.0 * diameter.powi(3),
+            Self::Skewed { size: [a, b, c], .. } => a * b * c,
         }
     }
 
@@ -300,16 +326,32 @@ impl Shape {
                 vec![("cylinder.diameter", diameter), ("cylinder.length", length)]
             }
             Self::Sphere { diameter } => vec![("sphere.diameter", diameter)],
+            Self::Skewed { size: [a, b, c], .. } => {
+                vec![("skewed.size.0", a), ("skewed.size.1", b), ("skewed.size.2", c)]
+            }
         }
     }
 
-    /// Edge lengths of the smallest box around it.
+    /// Edge lengths of the smallest box around it along the axes of its lattice.
     #[must_use]
     pub fn extent(&self) -> [f64; 3] {
         match *self {
             Self::Box { size } => size,
             Self::Cylinder { diameter, length } => [diameter, diameter, length],
             Self::Sphere { diameter } => [diameter; 3],
+            Self::Skewed { size, lattice } => {
+                let axes = lattice.axes();
+                axes.map(|axis| (0..3).map(|d| axis[d].abs() * size[d]).sum())
+            }
+        }
+    }
+
+    /// How its lattice is turned within it.
+    #[must_use]
+    pub fn lattice(&self) -> Option<Turn> {
+        match *self {
+            Self::Skewed { lattice, .. } => Some(lattice),
+            _ => None,
         }
     }
 }
@@ -504,13 +546,14 @@ impl Body {
             finite(&format!("{key}.centre.{axis}"), self.centre[axis])?;
             finite(&format!("{key}.velocity.{axis}"), self.velocity[axis])?;
             finite(&format!("{key}.spin.{axis}"), self.spin[axis])?;
-            finite(&format!("{key}.turn.axis.{axis}"), self.turn.axis[axis])?;
         }
         for (name, length) in self.shape.lengths() {
             positive(&format!("{key}.shape.{name}"), length)?;
         }
-        positive(&format!("{key}.turn.axis"), self.turn.axis.iter().map(|a| a * a).sum())?;
-        finite(&format!("{key}.turn.degrees"), self.turn.degrees)?;
+        self.turn.validate(&format!("{key}.turn"))?;
+        if let Some(lattice) = self.shape.lattice() {
+            lattice.validate(&format!("{key}.shape.skewed.lattice"))?;
+        }
         not_negative(&format!("{key}.energy"), self.energy)?;
         not_negative(&format!("{key}.noise"), self.noise)?;
         if let Some(mapping) = &self.mapping {

@@ -26,7 +26,7 @@ pub(super) fn hard(args: &VvArgs) -> Result<u8, Failure> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
     let pool = pool.map_err(|e| Failure::usage(format!("cannot start a thread: {e}")))?;
     for case in cases {
-        for scheme in SCHEMES {
+        for scheme in SCHEMES.into_iter().take(if args.default_only { 1 } else { SCHEMES.len() }) {
             let start = cpu_time::ProcessTime::now();
             let Some(record) = pool.install(|| case.measure(scheme, extent)) else { continue };
             record.write(&records)?;

@@ -172,6 +172,7 @@ mod tests {
                 cases: cases.iter().map(ToString::to_string).collect(),
                 level: Level::Standard,
                 sensitivity: false,
+                default_only: false,
                 random: Some(2),
                 from,
                 out: "nowhere".into(),

@@ -54,6 +54,7 @@ impl Measure {
                     Shape::Cylinder { diameter: long(diameter), length: long(length) }
                 }
                 Shape::Sphere { diameter } => Shape::Sphere { diameter: long(diameter) },
+                Shape::Skewed { size, lattice } => Shape::Skewed { size: size.map(long), lattice },
             };
             body.centre = body.centre.map(long);
             body.velocity = body.velocity.map(|v| self.speed() * v);

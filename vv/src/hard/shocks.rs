@@ -2,7 +2,7 @@
 
 use whipple_solver::space::Simulation;
 use whipple_solver::space::output::Particle;
-use whipple_solver::space::scene::{Body, Hold, Scene, Shape, Side, Wall};
+use whipple_solver::space::scene::{Body, Hold, Scene, Shape, Side, Turn, Wall};
 
 use super::measure::{Planes, energy, front, largest, mean, minus, norm};
 use super::scenes::{
@@ -62,12 +62,23 @@ fn shock(
 pub(super) fn fast(sheet: &mut Sheet) {
     for speed in [20.0, 50.0] {
         sheet.part(format!("Al on Al at {speed} km/s, planar"), |sheet| {
-            planar(sheet, 0.05 * speed, None)
+            planar(sheet, 0.05 * speed, |_| {}, None)
         });
         // What a first step that knows no rates does to it.
         sheet.part(format!("the same after a step of {SHORT:e} us"), |sheet| {
-            planar(sheet, 0.05 * speed, Some(SHORT))
+            planar(sheet, 0.05 * speed, |_| {}, Some(SHORT))
         });
+        // What more viscosity does to it, with elements that bear to be pressed to a tenth.
+        sheet.part(
+            "the same with twice the quadratic viscosity, failing at a volume of 0.1",
+            |sheet| {
+                let change = |scene: &mut Scene| {
+                    scene.method.visc_quad *= 2.0;
+                    scene.materials[0].failure.compression = 0.1;
+                };
+                planar(sheet, 0.05 * speed, change, Some(0.0))
+            },
+        );
         sheet.part(format!("Al sphere on Al plate at {speed} km/s"), |sheet| {
             let n = sheet.size(8, 4);
             let edge = 1.0 / n as f64;
@@ -94,12 +105,18 @@ pub(super) fn fast(sheet: &mut Sheet) {
     sheet.part("Noh along a line at Mach 1e6", |sheet| super::gas::noh_of_mach(sheet, 1e6));
 }
 
-/// A column of aluminium against a wall. After a first step of its own choice its numbers have to hold, after a given one
+/// A column of aluminium against a wall. As it stands its numbers have to hold, after a first step of given length, or changed,
 /// they are shown.
-fn planar(sheet: &mut Sheet, up: f64, first: Option<f64>) -> Result<(), Trouble> {
+fn planar(
+    sheet: &mut Sheet,
+    up: f64,
+    change: impl Fn(&mut Scene),
+    first: Option<f64>,
+) -> Result<(), Trouble> {
     let exact = ALUMINIUM.hugoniot()?.at_particle_speed(up)?;
     let cells = sheet.size(80, 40);
-    let scene = column(sheet, &ALUMINIUM, ([cells, 3, 3], [EDGE; 3]), up);
+    let mut scene = column(sheet, &ALUMINIUM, ([cells, 3, 3], [EDGE; 3]), up);
+    change(&mut scene);
     let mut simulation = Simulation::new(&scene)?;
     advance(&mut simulation, first.unwrap_or(0.0))?;
     let length = cells as f64 * EDGE;
@@ -202,6 +219,111 @@ pub(super) fn rarefied(sheet: &mut Sheet) {
             });
         }
     }
+}
+
+/// Lattices through which a shock runs along a plane of cells, a diagonal of their faces, and one of their bodies.
+const LATTICES: [(&str, [f64; 3], f64); 4] = [
+    ("<100>", [0.0, 0.0, 1.0], 0.0),
+    ("<110>", [0.0, 0.0, 1.0], 45.0),
+    // From a diagonal of the cells to the x axis.
+    ("<111>", [0.0, 1.0, -1.0], 54.735_610_317_245_35),
+    ("30 degrees", [0.0, 0.0, 1.0], 30.0),
+];
+
+/// H25: shocks along and across the lattice, and two metals that meet a wall side by side.
+pub(super) fn oblique(sheet: &mut Sheet) {
+    let up = 0.1;
+    let mut found: Vec<[f64; 2]> = Vec::new();
+    for (name, axis, degrees) in LATTICES {
+        sheet.part(format!("halves of aluminium at 2 km/s, along {name}"), |sheet| {
+            let lattice = Turn { axis, degrees };
+            let [speed, pressure, aside] = through(sheet, lattice, up)?;
+            let exact = ALUMINIUM.hugoniot()?.at_particle_speed(up)?;
+            sheet.shown("speed of the shock over the exact one", speed / exact.shock_speed);
+            sheet.shown("pressure behind it over the exact one", pressure / exact.pressure);
+            sheet.at_most("speed aside behind it, over that of the material", aside / up, 0.05);
+            found.push([speed, pressure]);
+            Ok(())
+        });
+    }
+    sheet.part("all lattices", |sheet| {
+        let complete = found.len() == LATTICES.len();
+        for (k, what) in ["speed of the shock", "pressure behind it"].into_iter().enumerate() {
+            let all: Vec<f64> = found.iter().map(|found| found[k]).collect();
+            let (least, most) =
+                all.iter().fold((f64::INFINITY, 0.0f64), |(l, m), x| (l.min(*x), m.max(*x)));
+            let spread = if complete { most / least - 1.0 } else { f64::NAN };
+            sheet.at_most(&format!("{what}, largest over smallest less 1"), spread, 0.02);
+        }
+        Ok(())
+    });
+    sheet.part("aluminium and copper side by side on a wall at 1 km/s", |sheet| {
+        let n = sheet.size(12, 8);
+        let half = 0.5 * n as f64 * EDGE;
+        let gap = 0.51 * EDGE;
+        let bar = |metal: &Metal, side: f64| Body {
+            centre: [half + 0.5 * EDGE, side * (half + 0.5 * gap), 0.0],
+            velocity: [-up, 0.0, 0.0],
+            ..block(metal.name, [n; 3], EDGE)
+        };
+        let metals = vec![ALUMINIUM.fluid(), COPPER.fluid()];
+        let mut scene =
+            scene(sheet.space(), metals, vec![bar(&ALUMINIUM, 1.0), bar(&COPPER, -1.0)]);
+        scene.walls.push(Wall { axis: 0, position: 0.0, material: Side::Above, hold: Hold::Rest });
+        let mut simulation = Simulation::new(&scene)?;
+        advance(&mut simulation, 2.0 * half / ALUMINIUM.sound())?;
+        let fastest = largest(simulation.all_particles().map(|p| norm(p.velocity) / up));
+        // A free surface takes twice the speed at most.
+        sheet.at_most("fastest particle over the speed of impact", fastest, 3.0);
+        energy(sheet, &simulation);
+        Ok(())
+    });
+}
+
+/// Speed of the shock in a wide block whose halves run into each other, the pressure behind it, and the largest speed aside, all
+/// in the core that nothing from its sides has reached. The halves are one lattice, so that no stairs meet.
+fn through(sheet: &Sheet, lattice: Turn, up: f64) -> Result<[f64; 3], Trouble> {
+    let n = sheet.size(20, 16);
+    let (long, wide) = (n as f64 * EDGE, 2.4 * n as f64 * EDGE);
+    let shape = Shape::Skewed { size: [2.0 * long, wide, wide], lattice };
+    // Cells as near to cubes of one edge as whole numbers are.
+    let cells = shape.extent().map(|extent| (extent / EDGE).round() as usize);
+    let block = body("aluminium", shape, cells);
+    let scene = scene(sheet.space(), vec![ALUMINIUM.fluid()], vec![block]);
+    let mut simulation = begin(&scene, VELOCITY, |p| {
+        let side = if p.position[0].abs() < 1e-9 { 0.0 } else { p.position[0].signum() };
+        [-up * side, 0.0, 0.0]
+    })?;
+    let core = 0.15 * wide;
+    // Particles of a slice as thick as a cell, and the sum of their places.
+    let mut bins: Vec<(f64, Vec<u32>)> = vec![(0.0, Vec::new()); n];
+    let inner = |p: &Particle| p.position[1].abs().max(p.position[2].abs()) < core;
+    for p in simulation.all_particles().filter(|p| p.position[0] > 0.0 && inner(p)) {
+        let (sum, ids) = &mut bins[((p.position[0] / EDGE) as usize).min(n - 1)];
+        *sum += p.position[0];
+        ids.push(p.id);
+    }
+    let exact = ALUMINIUM.hugoniot()?.at_particle_speed(up)?;
+    let mut places = Vec::new();
+    for part in [0.45, 0.8] {
+        advance(&mut simulation, part * long / exact.shock_speed)?;
+        let pressure = |ids: &Vec<u32>| {
+            mean(&ids.iter().map(|&id| simulation.particle(id).pressure).collect::<Vec<f64>>())
+        };
+        let curve: Vec<(f64, f64)> =
+            bins.iter().map(|(sum, ids)| (sum / ids.len() as f64, pressure(ids))).collect();
+        places.push((simulation.time(), front(&curve, 0.5 * exact.pressure), curve));
+    }
+    let [(first, Some(a), _), (last, Some(b), curve)] = &places[..] else {
+        return Ok([f64::NAN; 3]);
+    };
+    let behind = 4..((0.8 * n as f64) as usize).saturating_sub(5);
+    let pressure = mean(&curve[behind.clone()].iter().map(|p| p.1).collect::<Vec<f64>>());
+    let aside = bins[behind].iter().flat_map(|(_, ids)| ids).map(|&id| {
+        let v = simulation.particle(id).velocity;
+        v[1].hypot(v[2])
+    });
+    Ok([(b - a) / (last - first), pressure, largest(aside)])
 }
 
 /// H17: waves along each axis of flat and of slender cells, and slender particles that meet.

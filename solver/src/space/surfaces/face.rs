@@ -56,6 +56,14 @@ pub(super) fn each_face(mesh: &Mesh, body: usize, at: [i16; 3], mut f: impl FnMu
     }
 }
 
+/// Whether a node lies where faces of the live surface of a body meet at an edge or a corner that stands out: two of its cells
+/// are live at most.
+pub(super) fn is_rim(mesh: &Mesh, body: usize, at: [i16; 3]) -> bool {
+    let own = &mesh.bodies[body];
+    let live = |&(_, cell): &(usize, u32)| mesh.held(own.centroids.start + cell as usize);
+    own.lattice.cells_round(at).filter(live).count() <= 2
+}
+
 /// The face across an axis with this node as its lowest corner.
 pub(super) fn face_across(body: &Body, lowest: [i16; 3], axis: usize) -> Nodes {
     [[0, 0], [2, 0], [2, 2], [0, 2]].map(|step: [i16; 2]| {

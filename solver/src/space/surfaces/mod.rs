@@ -2,8 +2,8 @@
 //!
 //! A particle that elements hold has its density from their volumes. The printed contact between two
 //! such particles would compress both a second time, and a node on a node gives way before it carries
-//! the pressure of the bodies. So the Gauss points of live faces, and loose particles, feel a spring on
-//! the nearest point of another body's live surface. Forces are the gradient of an energy of the
+//! the pressure of the bodies. So the Gauss points of live faces, loose particles, and nodes of rims where they meet
+//! rims (decision 0024), feel a spring on the nearest point of another body's live surface. Forces are the gradient of an energy of the
 //! distance and of the present area, so energy, momentum and angular momentum are kept.
 
 mod face;
@@ -170,7 +170,7 @@ impl Surfaces {
             };
             let shares = spring.shares(contacts, start);
             shares.for_each(|(i, share)| add(i, share * force, spring.way));
-            if !start.is_loose() {
+            if !start.is_alone() {
                 let point = (spring.past.slot - start.slot) as usize;
                 let part = Part::of(places_of(contacts, &start.corners), POINTS[point]);
                 let (tension, slopes) = (spring.tension(mesh), part.slopes());
@@ -315,8 +315,14 @@ impl Surfaces {
                 } else {
                     stand.max(own.distance).min(full)
                 };
-                if start.is_loose() {
-                    own.area = start.loose_area(mesh, contacts);
+                if start.is_alone() {
+                    own.area = start.own_area(mesh, contacts);
+                    let node = start.corners[0];
+                    let pressed = old.is_some_and(|old| old.distance < old.stand);
+                    let held = mesh.held(contacts.particle(node));
+                    if held && !pressed && !shell.on_rims((mesh, contacts), &spring, node) {
+                        continue;
+                    }
                 } else {
                     let part = Part::of(places, at);
                     own.area = part.area;

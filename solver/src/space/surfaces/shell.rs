@@ -2,12 +2,17 @@
 //! may end on. What may ever be in reach is found with the list of pairs, for as long as that serves; what
 //! is, by the present positions alone, so that nothing depends on when the list was made.
 
-use super::face::{Corners, Nearest, corners_of, each_face, nearest_face};
-use super::spring::Start;
+use super::face::{
+    Corners, Nearest, Part, corners_of, dot, each_face, is_rim, nearest_face, places_of,
+};
+use super::spring::{Spring, Start};
 use crate::space::contacts::{Contacts, SIGHT};
 use crate::space::lattice::NONE;
 use crate::space::mesh::Mesh;
 use crate::space::near::{put, roomy};
+
+/// Cosine between the way of a spring and the normal of a face above which it leads straight onto it.
+const STRAIGHT: f64 = 0.8;
 
 /// Nothing found yet.
 const UNKNOWN: u32 = u32::MAX;
@@ -92,6 +97,19 @@ impl Shell {
         Some((face, near, of.1.body(face[0])))
     }
 
+    /// Whether a node of a rim meets a rim of the other surface, where a spring begins: the way between them leads straight
+    /// onto no face round either. What comes straight onto a face meets its points.
+    pub(super) fn on_rims(&mut self, of: (&Mesh, &Contacts), spring: &Spring, node: u32) -> bool {
+        let Some(other) = spring.nearest_corner() else { return false };
+        [node, other].into_iter().all(|node| {
+            let straight = |face: Corners| {
+                let part = Part::of(places_of(of.1, &face), [0.5; 2]);
+                dot(part.normal, spring.way).abs() > STRAIGHT
+            };
+            !self.stars.round(of, node).any(straight)
+        })
+    }
+
     /// Finds who may stand in front of whom.
     fn find_ways(&mut self, mesh: &Mesh, contacts: &Contacts) {
         self.ways.clear();
@@ -107,7 +125,7 @@ impl Shell {
         self.ways.sort_unstable();
     }
 
-    /// Finds where springs may start: at loose particles, and at faces with a corner that may be in front of
+    /// Finds where springs may start: at loose particles, nodes of rims, and faces with a corner that may be in front of
     /// something.
     fn find_lookouts(&mut self, mesh: &Mesh, contacts: &Contacts) {
         let Self { ways, lookouts, nearest, .. } = self;
@@ -119,9 +137,13 @@ impl Shell {
         for (first, &member) in (0..).zip(&*nearest) {
             let one = contacts.member(member as usize);
             if !mesh.held(one.particle) {
-                let start = Start::loose(member as usize, one.body);
+                let start = Start::alone(member as usize, one.body);
                 put(lookouts, Lookout { start, ahead: [first; 4] });
                 continue;
+            }
+            if is_rim(mesh, one.body, one.place) {
+                let start = Start::alone(member as usize, one.body);
+                put(lookouts, Lookout { start, ahead: [first; 4] });
             }
             each_face(mesh, one.body, one.place, |nodes, side| {
                 let Some(corners) = corners_of(contacts, &nodes) else { return };

@@ -48,7 +48,7 @@ impl Law {
     }
 }
 
-/// Where springs start: a loose particle, or the points of a face.
+/// Where springs start: a particle that is loose or lies on a rim, or the points of a face.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Start {
     /// First of their places among those of all members.
@@ -63,7 +63,7 @@ impl Start {
     pub(super) fn at(mesh: &Mesh, contacts: &Contacts, slot: u32) -> Option<Self> {
         let (member, place) = (slot as usize / PLACES, slot as usize % PLACES);
         let Member { body, place: lowest, .. } = contacts.member(member);
-        let Some(place) = place.checked_sub(1) else { return Some(Self::loose(member, body)) };
+        let Some(place) = place.checked_sub(1) else { return Some(Self::alone(member, body)) };
         let axis = place / POINTS.len();
         let nodes = face_across(&mesh.bodies[body], lowest, axis);
         if nodes.iter().any(|&node| node >= mesh.first_centroid) {
@@ -73,8 +73,8 @@ impl Start {
         Some(Self::face(corners, axis, body))
     }
 
-    /// Of a loose particle.
-    pub(super) fn loose(member: usize, body: usize) -> Self {
+    /// Of a particle alone.
+    pub(super) fn alone(member: usize, body: usize) -> Self {
         Self { slot: (PLACES * member) as u32, corners: [member as u32; 4], body: body as u16 }
     }
 
@@ -85,23 +85,23 @@ impl Start {
     }
 
     #[inline(always)]
-    pub(super) fn is_loose(&self) -> bool {
+    pub(super) fn is_alone(&self) -> bool {
         self.slot.is_multiple_of(PLACES as u32)
     }
 
     /// How many points it has.
     pub(super) fn points(&self) -> usize {
-        if self.is_loose() { 1 } else { POINTS.len() }
+        if self.is_alone() { 1 } else { POINTS.len() }
     }
 
     /// Shares of the corners in a point.
     #[inline(always)]
     pub(super) fn shares(&self, point: usize) -> [f64; 4] {
-        if self.is_loose() { [1.0, 0.0, 0.0, 0.0] } else { bilinear(POINTS[point]) }
+        if self.is_alone() { [1.0, 0.0, 0.0, 0.0] } else { bilinear(POINTS[point]) }
     }
 
-    /// Area that a loose particle acts for: what one of its mass has of a flat surface.
-    pub(super) fn loose_area(&self, mesh: &Mesh, contacts: &Contacts) -> f64 {
+    /// Area that a particle alone acts for: what one of its mass has of a flat surface.
+    pub(super) fn own_area(&self, mesh: &Mesh, contacts: &Contacts) -> f64 {
         let body = &mesh.bodies[self.body as usize];
         4.0 * mesh.mass(contacts.particle(self.corners[0])) / (body.rho_0 * body.edge())
     }
@@ -121,7 +121,7 @@ pub(super) struct Past {
     pub(super) area: f64,
 }
 
-/// A point of a body in front of a surface, in touch with it or not: a loose particle, or one of a face.
+/// A point of a body in front of a surface, in touch with it or not: a particle alone, or one of a face.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Spring {
     pub(super) past: Past,
@@ -162,6 +162,16 @@ impl Spring {
         }
     }
 
+    /// The corner of its face that is nearest to its end; none where it ends amid the face.
+    pub(super) fn nearest_corner(&self) -> Option<u32> {
+        let inner = |t: f64| t > 0.0 && t < 1.0;
+        if self.at.into_iter().all(inner) {
+            return None;
+        }
+        let shares = bilinear(self.at).into_iter().zip(self.past.face);
+        shares.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, corner)| corner)
+    }
+
     /// A spring of the past as it is now, and where it starts.
     pub(super) fn again(past: &Past, mesh: &Mesh, contacts: &Contacts) -> Option<(Start, Self)> {
         let start = Start::at(mesh, contacts, past.slot)?;
@@ -200,7 +210,7 @@ impl Spring {
     /// as much area as a node of a flat surface has. A point that acts for more than a node of the other surface has pushes
     /// that alone.
     pub(super) fn inertia(&self, (mesh, contacts): (&Mesh, &Contacts), start: &Start) -> f64 {
-        if start.is_loose() {
+        if start.is_alone() {
             let shares = self.shares(contacts, start);
             return shares.map(|(i, share)| share * share / mesh.mass(i)).sum();
         }

@@ -37,6 +37,8 @@ fn masses_are_exact() {
         (Shape::Cylinder { diameter: 0.9, length: 0.4 }, [9, 9, 4]),
         (Shape::Sphere { diameter: 0.9 }, [9, 9, 9]),
         (Shape::Sphere { diameter: 0.8 }, [8, 8, 8]),
+        (skewed([0.0, 0.0, 1.0], 45.0), [10, 10, 5]),
+        (skewed([1.0, -1.0, 0.0], 54.7), [9, 11, 10]),
     ];
     let turn = Turn { axis: [1.0, -2.0, 0.7], degrees: 40.0 };
     for (shape, cells) in shapes {
@@ -53,6 +55,43 @@ fn masses_are_exact() {
         let volume: f64 = size.iter().product();
         assert!((length / (0.75f64.sqrt() * volume.cbrt()) - 1.0).abs() < 1e-14);
         assert!((volume * simulation.elements() as f64 / shape.volume() - 1.0).abs() < 1e-12);
+    }
+}
+
+/// A box of 0.7 x 0.6 x 0.5 cm with a turned lattice.
+fn skewed(axis: [f64; 3], degrees: f64) -> Shape {
+    Shape::Skewed { size: [0.7, 0.6, 0.5], lattice: Turn { axis, degrees } }
+}
+
+/// A turned lattice fills its box as far as cells go, whichever of its axes is the longest; one that is not turned is that of
+/// a box.
+#[test]
+fn turned_lattices_fill_their_boxes() {
+    for (axis, degrees, cells) in [
+        ([0.0, 0.0, 1.0], 30.0, [11, 10, 5]),
+        ([0.0, 0.0, 1.0], 30.0, [10, 11, 5]),
+        ([0.3, -0.5, 0.8], 20.0, [9, 10, 11]),
+    ] {
+        let shape = skewed(axis, degrees);
+        let turn = Turn { axis: [0.0, 1.0, 0.0], degrees: 90.0 };
+        let simulation =
+            start(&scene(vec![copper()], vec![Body { turn, ..body("copper", shape, cells) }]));
+        let edge = simulation.sizes(0).1.into_iter().fold(0.0, f64::max);
+        // Turned, the first axis of the box runs along -z and the third along x.
+        let reach =
+            |d: usize| simulation.all_particles().map(|p| p.position[d].abs()).fold(0.0, f64::max);
+        for (d, half) in [(0, 0.25), (1, 0.3), (2, 0.35)] {
+            let off = reach(d) - half;
+            assert!(off.abs() < 0.9 * edge, "{degrees} {d}: {off} of {edge}");
+        }
+    }
+    let own = |shape: Shape| start(&scene(vec![copper()], vec![body("copper", shape, [7, 6, 5])]));
+    let [a, b] = [skewed([0.0, 0.0, 1.0], 0.0), Shape::Box { size: [0.7, 0.6, 0.5] }].map(own);
+    let places = |s: &whipple_solver::space::Simulation| -> Vec<[f64; 3]> {
+        s.all_particles().map(|p| p.position).collect()
+    };
+    for (p, q) in places(&a).into_iter().zip(places(&b)) {
+        assert!((0..3).all(|d| (p[d] - q[d]).abs() < 1e-12), "{p:?} {q:?}");
     }
 }
 

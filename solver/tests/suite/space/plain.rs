@@ -98,9 +98,12 @@ fn the_fast_step_is_the_plain_step() {
     assert!(plain.touches > 1000 && plain.deaths > 10);
 }
 
-/// Everything that the default has, on a finer rod.
+/// Everything that the default has, on a finer rod. At other speeds some part by 1e-8 in a step in which the nearest point of a
+/// surface lies on the edge of two faces: whose it is hangs on round-off, and with it what is heat when a spring jumps.
 #[test]
 fn the_default_step_is_the_plain_step() {
-    let plain = compare(&rod(5, 15, [14, 5, 10]), 160, [1e-8; 2]);
+    let mut scene = rod(5, 15, [14, 5, 10]);
+    scene.bodies[0].velocity = scene.bodies[0].velocity.map(|v| 1.07 * v);
+    let plain = compare(&scene, 160, [1e-10; 2]);
     assert!(plain.touches > 1000 && plain.deaths > 0);
 }

@@ -316,6 +316,8 @@ fn in_shape(body: &Body, cell: [usize; 3]) -> bool {
         Shape::Box { .. } => true,
         Shape::Cylinder { .. } => off(0).powi(2) + off(1).powi(2) <= 1.0,
         Shape::Sphere { .. } => off(0).powi(2) + off(1).powi(2) + off(2).powi(2) <= 1.0,
+        // Stairs are looked at in `bodies`.
+        Shape::Skewed { .. } => false,
     }
 }
 
@@ -647,7 +649,11 @@ impl Plain {
             squares = plus(&squares, 4.0 * stiff, &sum);
         }
 
-        // Limited viscosity and the heat flux in shocks.
+        // Limited viscosity, the heat flux in shocks, and that of heat that alternates.
+        let corners = warmth[..8].iter().copied();
+        let spread = corners.clone().fold(f64::MIN, f64::max) - corners.fold(f64::MAX, f64::min);
+        let off = (warmth[8] - warmth[..8].iter().sum::<f64>() / 8.0).abs();
+        let alternating = if off > spread { (off - spread) / off } else { 0.0 };
         let area = 0.75 * solid.volume.powf(2.0 / 3.0);
         let mut ways = scaled(&ONE, 0.0);
         let (mut all, mut most) = (ways, 0.0f64);
@@ -686,7 +692,8 @@ impl Plain {
             all = plus(&all, 1.0, &outer(along));
             forces[slot] = add(forces[slot], times(along, nu * jump));
             forces[8] = sub(forces[8], times(along, nu * jump));
-            let flux = method.heat_coeff * solid.c_v * rho * area * jump.max(0.0);
+            let speed = jump.max(0.0) + 0.02 * sound * alternating;
+            let flux = method.heat_coeff * solid.c_v * rho * area * speed;
             let flux = flux * (n.theta - x.theta) * self.dt;
             heat[slot] -= flux;
             heat[8] += flux;
@@ -993,6 +1000,31 @@ impl Plain {
                 found.extend(
                     loose.filter_map(|i| self.nearest_spring(&[(i, 1.0)], i, &surfaces[other])),
                 );
+                // Nodes of rims that meet rims, or are pressed since they did.
+                let mut nodes: Vec<usize> =
+                    surfaces[body].iter().flat_map(|(_, face)| *face).collect();
+                nodes.sort_unstable();
+                nodes.dedup();
+                for i in nodes.into_iter().filter(|&i| self.particles[i].live <= 2) {
+                    let Some(spring) = self.nearest_spring(&[(i, 1.0)], i, &surfaces[other]) else {
+                        continue;
+                    };
+                    let pressed = old.iter().any(|old| same(old, &spring) && old.z < 1.0);
+                    let end =
+                        spring.face.iter().max_by(|a, b| a.1.total_cmp(&b.1)).map(|end| end.0);
+                    let rim = spring.face.iter().any(|&(_, share)| share == 0.0);
+                    let oblique = |body: usize, node: usize| {
+                        let round = surfaces[body].iter().filter(|(_, face)| face.contains(&node));
+                        let mut cosines = round
+                            .map(|&(_, face)| dot(self.part(face, [0.5; 2]).2, spring.way).abs());
+                        cosines.all(|cosine| cosine <= 0.8)
+                    };
+                    if pressed
+                        || rim && oblique(body, i) && end.is_some_and(|end| oblique(other, end))
+                    {
+                        found.push(spring);
+                    }
+                }
                 for &(_, face) in &surfaces[body] {
                     for (k, at) in POINTS.into_iter().enumerate() {
                         let shares = bilinear(at);

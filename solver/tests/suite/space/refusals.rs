@@ -50,6 +50,10 @@ fn bad_scenes_are_named() {
         refused(|s| s.bodies[0].turn.axis = [0.0; 3]),
         refused(|s| s.bodies[0].energy = -1.0),
         refused(|s| s.bodies[1].shape = Shape::Sphere { diameter: -1.0 }),
+        refused(|s| {
+            let lattice = whipple_solver::space::scene::Turn { axis: [0.0; 3], degrees: 30.0 };
+            s.bodies[1].shape = Shape::Skewed { size: [1.0; 3], lattice };
+        }),
         refused(|s| s.bodies[1].cells = [8, 80, 8]),
         refused(|s| {
             s.bodies[1].cells = [800; 3];
