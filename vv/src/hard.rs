@@ -126,8 +126,8 @@ pub fn reason(id: &str, scheme: Scheme) -> Option<&'static str> {
     match id {
         "H01" if paper => Some("heating as printed (60) depends on the frame (decision 0005)"),
         "H12" if scheme == SCHEMES[0] => Some(
-            "at 50 km/s cells warp in the front and die: with twice the quadratic viscosity and elements that bear a volume of \
-             0.1 none does, and the speed of the shock is off by less than 1 %; debris is thinner than the floor of 0.3 of the \
+            "at 50 km/s cells get so flat in the front that their bonds push sideways, warp and die: with twice the quadratic \
+             viscosity and elements that bear a volume of 0.1 none does, and the speed of the shock is off by less than 1 %; debris is thinner than the floor of 0.3 of the \
              density of a solid, below which there is no law of vapour",
         ),
         "H24" => {

@@ -18,8 +18,9 @@ const LINE: [&str; 2] =
     [include_str!("../../solver/src/scene.rs"), include_str!("../../solver/src/method.rs")];
 
 /// Sources of the data of a scene in space, the nearest first; choices are shared.
-const SPACE: [&str; 4] = [
+const SPACE: [&str; 5] = [
     include_str!("../../solver/src/space/scene.rs"),
+    include_str!("../../solver/src/space/shape.rs"),
     include_str!("../../solver/src/space/mapping.rs"),
     include_str!("../../solver/src/space/method.rs"),
     include_str!("../../solver/src/method.rs"),

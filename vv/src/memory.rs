@@ -8,7 +8,7 @@ use std::fs;
 
 use whipple_solver::method::Density;
 use whipple_solver::space::Scene;
-use whipple_solver::space::scene::{Body, Shape};
+use whipple_solver::space::scene::Body;
 
 use crate::scene::AnyScene;
 
@@ -64,13 +64,7 @@ fn particles(scene: &Scene) -> u64 {
 }
 
 fn in_body(body: &Body) -> u64 {
-    use std::f64::consts::PI;
-    let filled = match body.shape {
-        Shape::Box { .. } => 1.0,
-        Shape::Cylinder { .. } => PI / 4.0,
-        Shape::Sphere { .. } => PI / 6.0,
-        Shape::Skewed { .. } => body.shape.volume() / body.shape.extent().iter().product::<f64>(),
-    };
+    let filled = body.shape.volume() / body.shape.extent().iter().product::<f64>();
     let [nodes, cells] =
         [1, 0].map(|more| body.cells.map(|n| (n + more) as f64).iter().product::<f64>());
     (filled * (nodes + cells)) as u64

@@ -104,6 +104,15 @@ impl Eos {
         }
     }
 
+    /// Pressure per temperature at the reference density: none that counts for a gas, which bears no tension.
+    #[must_use]
+    pub fn thermal(&self) -> f64 {
+        match self {
+            Self::MieGruneisen(solid) => solid.product * solid.c_v,
+            Self::IdealGas(_) => 0.0,
+        }
+    }
+
     /// Specific heat `c_v`.
     #[must_use]
     pub fn c_v(&self) -> f64 {
@@ -152,12 +161,19 @@ impl Eos {
         }
     }
 
-    /// Pressure, sound speed and temperature at a density, with its inverse, and an internal energy per mass.
+    /// Pressure, sound speed and temperature at a density, with its inverse, and an internal energy per mass. Of the cold
+    /// tension of an expanded solid its particles feel the part that `loose` is, asked for if any is expanded: elements
+    /// carry the rest (decision 0025).
     #[inline(always)]
     #[must_use]
-    pub fn respond<F: Lanes>(&self, (rho, inverse): (F, F), u: F) -> Response<F> {
+    pub fn respond<F: Lanes>(
+        &self,
+        (rho, inverse): (F, F),
+        u: F,
+        loose: impl FnOnce() -> F,
+    ) -> Response<F> {
         match self {
-            Self::MieGruneisen(solid) => solid.respond((rho, inverse), u),
+            Self::MieGruneisen(solid) => solid.respond((rho, inverse), u, loose),
             Self::IdealGas(gas) => gas.respond(rho, u),
         }
     }
@@ -165,7 +181,12 @@ impl Eos {
 
 impl MieGruneisen {
     #[inline(always)]
-    fn respond<F: Lanes>(&self, (rho, inverse): (F, F), u: F) -> Response<F> {
+    fn respond<F: Lanes>(
+        &self,
+        (rho, inverse): (F, F),
+        u: F,
+        loose: impl FnOnce() -> F,
+    ) -> Response<F> {
         let (zero, one) = (F::zero(), F::splat(1.0));
         // Written so that both are exactly zero at the reference density.
         let mu = (rho - self.rho_0) * (1.0 / self.rho_0);
@@ -186,7 +207,8 @@ impl MieGruneisen {
         let d_eta = F::select(beyond.gt(zero), F::splat(cap_slope), d_eta);
         let cold = hugoniot * (one - release) + compressed * cap_slope * beyond;
         let expanded = mu.lt(zero);
-        let cold = F::select(expanded, mu * self.bulk, cold);
+        let cold =
+            if expanded == 0 { cold } else { F::select(expanded, mu * self.bulk * loose(), cold) };
         let d_cold = F::select(expanded, F::splat(self.bulk / self.rho_0), compressed * d_eta);
         let d_cold = d_cold + (u - hugoniot * capped * (0.5 / self.rho_0)) * self.steepness;
         let pressure = (cold + product * u).max(zero);
@@ -263,7 +285,8 @@ mod tests {
     }
 
     fn at(eos: &Eos, rho: f64, u: f64) -> (f64, f64) {
-        let r = eos.respond((F8::splat(rho), F8::splat(1.0 / rho)), F8::splat(u));
+        let loose = || F8::splat(1.0);
+        let r = eos.respond((F8::splat(rho), F8::splat(1.0 / rho)), F8::splat(u), loose);
         (r.pressure.0[0], r.sound_squared.0[0])
     }
 

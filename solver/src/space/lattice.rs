@@ -66,49 +66,37 @@ pub struct Lattice {
 pub fn cell_size(body: &Body) -> [f64; 3] {
     let extent = body.shape.extent();
     let even = |axis: usize| extent[axis] / body.cells[axis] as f64;
-    let [n1, n2, n3] = body.cells;
-    let filled = |inside: &dyn Fn(usize, usize, usize) -> bool, depth: usize| -> usize {
-        let cells = (0..depth).flat_map(|k| (0..n2).map(move |j| (j, k)));
-        cells.map(|(j, k)| (0..n1).filter(|&i| inside(i, j, k)).count()).sum()
-    };
+    let nominal = |axes: usize| (0..axes).map(even).product::<f64>();
     match body.shape {
         Shape::Box { .. } => [even(0), even(1), even(2)],
-        Shape::Cylinder { diameter, length } => {
-            let disc = filled(&|i, j, _| inside(body, [i, j, 0]), 1);
+        Shape::Cylinder { .. } | Shape::Ring { .. } => {
             // Stretches both edges alike, so that unequal counts keep their ratio.
-            let area = body.shape.volume() / length;
-            let nominal = disc as f64 * (diameter / n1 as f64) * (diameter / n2 as f64);
-            let scale = (area / nominal).sqrt();
+            let area = body.shape.volume() / extent[2];
+            let scale = (area / (filled(body, 1) as f64 * nominal(2))).sqrt();
             [even(0) * scale, even(1) * scale, even(2)]
         }
-        Shape::Sphere { .. } | Shape::Skewed { .. } => {
-            let ball = filled(&|i, j, k| inside(body, [i, j, k]), n3);
-            let nominal = ball as f64 * even(0) * even(1) * even(2);
-            let scale = (body.shape.volume() / nominal).cbrt();
+        Shape::Sphere { .. } | Shape::Skewed { .. } | Shape::Cone { .. } | Shape::Filled { .. } => {
+            let cells = filled(body, body.cells[2]) as f64;
+            let scale = (body.shape.volume() / (cells * nominal(3))).cbrt();
             [even(0) * scale, even(1) * scale, even(2) * scale]
         }
     }
 }
 
-/// Whether a cell, by its coordinates along the body's own axes, belongs to the shape: by its centre
-/// and the shape inscribed in the box of the cells.
-fn inside(body: &Body, cell: [usize; 3]) -> bool {
-    let from_centre = |axis: usize| {
-        let n = body.cells[axis] as f64;
-        (2.0 * cell[axis] as f64 + 1.0 - n) / n
-    };
-    let axes = match body.shape {
-        Shape::Box { .. } => 0,
-        Shape::Cylinder { .. } => 2,
-        Shape::Sphere { .. } => 3,
-        Shape::Skewed { size, lattice } => {
-            let (extent, axes) = (body.shape.extent(), lattice.axes());
-            let along =
-                |d: usize| -> f64 { (0..3).map(|k| from_centre(k) * extent[k] * axes[k][d]).sum() };
-            return (0..3).all(|d| along(d).abs() <= size[d]);
-        }
-    };
-    (0..axes).map(|axis| from_centre(axis).powi(2)).sum::<f64>() <= 1.0
+/// Cells of a body in its first layers.
+fn filled(body: &Body, layers: usize) -> usize {
+    let [n1, n2, _] = body.cells;
+    let rows = (0..layers).flat_map(|k| (0..n2).map(move |j| (j, k)));
+    let inside = |at: [usize; 3]| body.shape.has(at, body.cells);
+    rows.map(|(j, k)| (0..n1).filter(|&i| inside([i, j, k])).count()).sum()
+}
+
+/// Whether a body has a cell at all.
+#[must_use]
+pub fn fills(body: &Body) -> bool {
+    let [n1, n2, n3] = body.cells;
+    let mut rows = (0..n3).flat_map(|k| (0..n2).map(move |j| (j, k)));
+    rows.any(|(j, k)| (0..n1).any(|i| body.shape.has([i, j, k], body.cells)))
 }
 
 /// The axes of the lattice of a body.
@@ -145,7 +133,7 @@ impl Lattice {
             if flipped {
                 cell[order[1]] = body.cells[order[1]] - 1 - cell[order[1]];
             }
-            inside(body, cell)
+            body.shape.has(cell, body.cells)
         };
         let mut lattice = Self {
             size,

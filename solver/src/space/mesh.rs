@@ -12,7 +12,7 @@ use super::element::skew_factors;
 use super::eos::Eos;
 use super::lanes::{F8, LANES, Lanes, Mask};
 use super::lattice::{CENTROID_SHARE, Lattice, contact_length, dot};
-use super::method::{Method, Particles};
+use super::method::{Expansion, Method, Particles};
 use super::scene::{Body as BodyData, Hold, Scene, Wall};
 use super::strength::Solid;
 use crate::method::Viscosity;
@@ -95,6 +95,8 @@ pub struct Group {
     pub failed: u8,
     /// Live elements that cease to be a volume at the end of the step.
     pub dying: u8,
+    /// Elements that have begun to fail in the step.
+    pub failing: u8,
     /// Whether anything has moved here yet.
     pub awake: bool,
     /// Plastic strain `E^p`: 11, 22, 33, 12, 13, 23.
@@ -176,6 +178,9 @@ pub struct Mesh {
     pub masses: Vec<f64>,
     /// Reference volume over the reference volume of live elements; zero without live elements.
     pub ratio: Vec<f64>,
+    /// Of the share of a particle what its elements have lost that have failed; all of it if particles feel cold tension as
+    /// well.
+    torn: Vec<u8>,
     /// `V_o^(2/3)` by share, body by body.
     pub areas: Vec<[f64; 9]>,
     piece_at: Vec<u32>,
@@ -207,6 +212,7 @@ impl Mesh {
             share: vec![1; len],
             masses: vec![1.0; if lattices.iter().any(Lattice::is_mapped) { len } else { 0 }],
             ratio: vec![0.0; len],
+            torn: vec![0; len],
             areas: Vec::new(),
             piece_at: vec![u32::MAX; len / LANES],
         };
@@ -225,6 +231,9 @@ impl Mesh {
             if scene.method.visc_volume > 0.0 || zonal > 0.0 {
                 group.stiff = Some(Box::default());
             }
+        }
+        if scene.method.expansion == Expansion::Whole {
+            mesh.torn.copy_from_slice(&mesh.share);
         }
         groups.shrink_to_fit();
         mesh.cut(&nodes);
@@ -342,6 +351,22 @@ impl Mesh {
         }
     }
 
+    /// Takes failed elements out of what holds their particles in tension.
+    pub fn tear(&mut self, group: &Group, failed: u8) {
+        for lane in (0..u32::from(group.lanes)).filter(|lane| failed >> lane & 1 == 1) {
+            for i in group.particles(lane) {
+                let lost = if i >= self.first_centroid { CENTROID_SHARE } else { 1 };
+                self.torn[i] = (self.torn[i] + lost).min(self.share[i]);
+            }
+        }
+    }
+
+    /// Part of the elements of the particles from `first` on that has failed.
+    #[inline(always)]
+    pub fn loose<F: Lanes>(&self, first: usize) -> F {
+        F::whole(&self.torn, first) / F::whole(&self.share, first)
+    }
+
     /// Bytes that it takes.
     #[must_use]
     pub fn bytes(&self) -> usize {
@@ -349,7 +374,7 @@ impl Mesh {
         let mapped: usize = self.bodies.iter().map(|body| body.mapped.bytes()).sum();
         let pieces = 4 * self.piece_at.capacity();
         let own = 8 * (self.ratio.capacity() + self.masses.capacity());
-        own + self.share.capacity() + pieces + lattices + mapped
+        own + self.share.capacity() + self.torn.capacity() + pieces + lattices + mapped
     }
 
     /// Mass of a particle.
@@ -628,6 +653,7 @@ impl Group {
             live: if lanes == LANES { u8::MAX } else { (1 << lanes) - 1 },
             failed: 0,
             dying: 0,
+            failing: 0,
             awake: false,
             plastic: [F8::ZERO; 6],
             stress: [F8::ZERO; 6],

@@ -30,6 +30,16 @@ pub enum Particles {
     Ellipsoids,
 }
 
+/// Pressure of the particles of a solid that is less dense than at rest (decision 0025).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Expansion {
+    /// That of the whole equation of state, not below zero; elements pull beside it.
+    Whole,
+    /// Of intact material its thermal part alone: the cold tension is that of the elements.
+    Thermal,
+}
+
 /// How fast a failed element loses its strength, Eq. (47).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
@@ -53,6 +63,8 @@ pub struct Method {
     /// Which particles are ellipsoids.
     #[serde(default)]
     pub particles: Particles,
+    /// Pressure of the particles of an expanded solid.
+    pub expansion: Expansion,
     /// Reading of the yield function.
     pub yield_norm: YieldNorm,
     /// Form of the viscosity and of the conduction.
@@ -132,6 +144,7 @@ impl Preset {
             integrator: Integrator::Compatible,
             heating: Heating::Pair,
             particles: Particles::Fitting,
+            expansion: Expansion::Thermal,
             yield_norm: YieldNorm::Mises,
             viscosity: Viscosity::Limited,
             visc_linear: 0.7,
@@ -155,6 +168,7 @@ impl Preset {
         match self {
             Self::Paper => Method {
                 density: Density::Nonholonomic,
+                expansion: Expansion::Whole,
                 viscosity: Viscosity::Pairwise,
                 visc_linear: 0.3,
                 visc_quad: 0.0,

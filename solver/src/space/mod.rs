@@ -21,6 +21,7 @@ pub mod pass;
 pub mod phase;
 pub mod restart;
 pub mod scene;
+pub mod shape;
 pub mod simulation;
 pub mod spin;
 pub mod strength;

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::mapping::Mapping;
 use super::method::Method;
+pub use super::shape::Shape;
 use crate::error::SceneError;
 use crate::method::{Density, Heating, Integrator, STRONGEST, STRONGEST_WHY};
 use crate::units::Units;
@@ -257,7 +258,7 @@ impl Turn {
     }
 
     /// Checks that it is a turn about an axis.
-    fn validate(&self, key: &str) -> Result<(), SceneError> {
+    pub(super) fn validate(&self, key: &str) -> Result<(), SceneError> {
         for axis in 0..3 {
             finite(&format!("{key}.axis.{axis}"), self.axis[axis])?;
         }
@@ -269,90 +270,6 @@ impl Turn {
 impl Default for Turn {
     fn default() -> Self {
         Self { axis: [0.0, 0.0, 1.0], degrees: 0.0 }
-    }
-}
-
-/// Shape of a body before it is turned and moved.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub enum Shape {
-    /// A box, plates included.
-    Box {
-        /// Edge lengths.
-        size: [f64; 3],
-    },
-    /// A cylinder along its third axis.
-    Cylinder {
-        /// Diameter.
-        diameter: f64,
-        /// Length.
-        length: f64,
-    },
-    /// A sphere.
-    Sphere {
-        /// Diameter.
-        diameter: f64,
-    },
-    /// A box whose lattice is turned within it, so that its faces are stairs. Cells are counted along the axes of the
-    /// lattice, across the smallest box of that direction round it.
-    Skewed {
-        /// Edge lengths of the box.
-        size: [f64; 3],
-        /// Turn of the lattice within the box, before the body is turned.
-        lattice: Turn,
-    },
-}
-
-impl Shape {
-    /// Volume.
-    #[must_use]
-    pub fn volume(&self) -> f64 {
-        use std::f64::consts::PI;
-        match *self {
-            Self::Box { size: [a, b, c] } => a * b * c,
-            Self::Cylinder { diameter, length } => PI / 4.0 * diameter * diameter * length,
-            Self::Sphere { diameter } => PI / 6.0 * diameter.powi(3),
-            Self::Skewed { size: [a, b, c], .. } => a * b * c,
-        }
-    }
-
-    /// What it is given by, with keys.
-    fn lengths(&self) -> Vec<(&'static str, f64)> {
-        match *self {
-            Self::Box { size: [a, b, c] } => {
-                vec![("box.size.0", a), ("box.size.1", b), ("box.size.2", c)]
-            }
-            Self::Cylinder { diameter, length } => {
-                vec![("cylinder.diameter", diameter), ("cylinder.length", length)]
-            }
-            Self::Sphere { diameter } => vec![("sphere.diameter", diameter)],
-            Self::Skewed { size: [a, b, c], .. } => {
-                vec![("skewed.size.0", a), ("skewed.size.1", b), ("skewed.size.2", c)]
-            }
-        }
-    }
-
-    /// Edge lengths of the smallest box around it along the axes of its lattice.
-    #[must_use]
-    pub fn extent(&self) -> [f64; 3] {
-        match *self {
-            Self::Box { size } => size,
-            Self::Cylinder { diameter, length } => [diameter, diameter, length],
-            Self::Sphere { diameter } => [diameter; 3],
-            Self::Skewed { size, lattice } => {
-                let axes = lattice.axes();
-                axes.map(|axis| (0..3).map(|d| axis[d].abs() * size[d]).sum())
-            }
-        }
-    }
-
-    /// How its lattice is turned within it.
-    #[must_use]
-    pub fn lattice(&self) -> Option<Turn> {
-        match *self {
-            Self::Skewed { lattice, .. } => Some(lattice),
-            _ => None,
-        }
     }
 }
 
@@ -417,11 +334,15 @@ impl Scene {
             }
         }
         if particles > MAX_PARTICLES {
-            let wanted = format!("{MAX_PARTICLES} particles are the most");
-            return Err(SceneError::new("bodies", format!("{particles} particles"), &wanted));
+            return Err(too_many(particles));
         }
         Ok(())
     }
+}
+
+fn too_many(particles: usize) -> SceneError {
+    let wanted = format!("{MAX_PARTICLES} particles are the most");
+    SceneError::new("bodies", format!("{particles} particles"), &wanted)
 }
 
 impl Method {
@@ -547,13 +468,8 @@ impl Body {
             finite(&format!("{key}.velocity.{axis}"), self.velocity[axis])?;
             finite(&format!("{key}.spin.{axis}"), self.spin[axis])?;
         }
-        for (name, length) in self.shape.lengths() {
-            positive(&format!("{key}.shape.{name}"), length)?;
-        }
+        self.shape.validate(self.cells, &format!("{key}.shape"))?;
         self.turn.validate(&format!("{key}.turn"))?;
-        if let Some(lattice) = self.shape.lattice() {
-            lattice.validate(&format!("{key}.shape.skewed.lattice"))?;
-        }
         not_negative(&format!("{key}.energy"), self.energy)?;
         not_negative(&format!("{key}.noise"), self.noise)?;
         if let Some(mapping) = &self.mapping {
@@ -575,6 +491,19 @@ impl Body {
             super::cells::check(self, balance, key)?;
             return Ok(particles);
         }
+        let particles = self.most_particles();
+        if particles > MAX_PARTICLES {
+            return Err(too_many(particles));
+        }
+        if !super::lattice::fills(self) {
+            let wanted =
+                "no cell has its centre within the shape: smaller cells, or a thicker shape";
+            return Err(SceneError::new(
+                format!("{key}.cells"),
+                format!("{:?}", self.cells),
+                wanted,
+            ));
+        }
         let size = super::lattice::cell_size(self);
         let longest = size.iter().copied().fold(0.0, f64::max);
         let shortest = size.iter().copied().fold(f64::INFINITY, f64::min);
@@ -591,7 +520,7 @@ impl Body {
                 &wanted,
             ));
         }
-        Ok(self.most_particles())
+        Ok(particles)
     }
 
     /// An upper bound of its particles.
@@ -604,7 +533,7 @@ fn finite(key: &str, value: f64) -> Result<(), SceneError> {
     if value.is_finite() { Ok(()) } else { Err(SceneError::new(key, value, "it must be finite")) }
 }
 
-fn positive(key: &str, value: f64) -> Result<(), SceneError> {
+pub(super) fn positive(key: &str, value: f64) -> Result<(), SceneError> {
     if value.is_finite() && value > 0.0 {
         Ok(())
     } else {

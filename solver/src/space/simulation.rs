@@ -264,6 +264,7 @@ impl Simulation {
         }
         self.load(enter);
         enter(Phase::Control);
+        self.tear();
         let dt = self.elect(until)?;
         let arrival = self.keep_in(dt);
         // What a contact or a wall pushes strains elements in this step already.
@@ -496,6 +497,17 @@ impl Simulation {
         let work = Respond(particles, self.instructions);
         if let Some(allowed) = pieces(columns, 0, 0..self.mesh.pieces.len(), &work) {
             self.allowed = allowed;
+        }
+    }
+
+    /// Gives the particles of elements that began to fail in the step their own tension back.
+    fn tear(&mut self) {
+        if !self.demand.failing {
+            return;
+        }
+        for group in self.groups.iter_mut().filter(|group| group.failing != 0) {
+            self.mesh.tear(group, group.failing);
+            group.failing = 0;
         }
     }
 

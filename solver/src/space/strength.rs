@@ -1,7 +1,7 @@
 //! Resistance to shear: plastic flow, Eqs. (38)-(46), and what makes elements fail, Eq. (47).
 
 use super::lanes::{F8, LANES, Lanes, Mask, each};
-use super::method::{Method, Release, YieldNorm};
+use super::method::{Expansion, Method, Release, YieldNorm};
 use super::scene::{Flow, Material};
 
 /// A symmetric tensor: 11, 22, 33, 12, 13, 23.
@@ -47,6 +47,9 @@ pub struct Solid {
     pub compression: f64,
     /// Tensile strength.
     pub spall: f64,
+    /// Pressure of warm material at rest density per temperature, as far as it makes up for tension, and the temperature
+    /// without any.
+    thermal: [f64; 2],
     release: Release,
     /// Smallest pyramid, over its reference volume, of an element that counts as a volume.
     pub crushed: f64,
@@ -69,7 +72,9 @@ impl Solid {
     pub fn new(material: &Material, method: &Method, edge: f64) -> Self {
         let or_never = |value: Option<f64>| value.unwrap_or(f64::INFINITY);
         let mu = material.strength.map_or(0.0, |s| s.shear_modulus);
-        let bulk = super::eos::Eos::new(material).bulk();
+        let eos = super::eos::Eos::new(material);
+        let bulk = eos.bulk();
+        let thermal = if method.expansion == Expansion::Thermal { eos.thermal() } else { 0.0 };
         Self {
             mu,
             bulk,
@@ -79,6 +84,7 @@ impl Solid {
             melt: or_never(material.failure.melt),
             compression: material.failure.compression,
             spall: or_never(material.failure.spall.filter(|_| method.spall)),
+            thermal: [thermal, eos.theta_0()],
             release: method.release,
             crushed: if bulk > 0.0 { CRUSHED } else { f64::NEG_INFINITY },
             least: if bulk > 0.0 { CRUSHED } else { GAS[0] },
@@ -112,6 +118,13 @@ impl Solid {
             Release::Steps(n) => 1.0 / n,
             Release::Crossings(n) => dt * self.sound / (n * self.edge),
         }
+    }
+
+    /// Pressure that heat alone gives material at rest density.
+    #[inline(always)]
+    pub fn thermal<F: Lanes>(&self, theta: F) -> F {
+        let [slope, cold] = self.thermal;
+        (theta - cold).max(F::zero()) * slope
     }
 
     /// Factor of the yield stress at a temperature.

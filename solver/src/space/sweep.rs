@@ -188,6 +188,8 @@ impl Particles<'_> {
             body: &self.mesh.bodies[self.mesh.pieces[piece].body],
             mass: self.mass(piece, i),
             ratio: F::load(&self.mesh.ratio, i),
+            mesh: self.mesh,
+            first: i,
             touched: mask(&self.touched[i..]),
             at,
         };
@@ -203,7 +205,9 @@ impl Particles<'_> {
 
 /// Eight particles of a body.
 struct Eight<'a, F> {
+    mesh: &'a Mesh,
     body: &'a Body,
+    first: usize,
     mass: F,
     ratio: F,
     touched: Mask,
@@ -320,7 +324,7 @@ impl<F: Lanes> Eight<'_, F> {
         let zero = F::zero();
         let (at, rho) = (self.at, now.rho);
         let inverse = F::splat(1.0) / rho;
-        let response = self.body.eos.respond((rho, inverse), now.u);
+        let response = self.body.eos.respond((rho, inverse), now.u, || self.mesh.loose(self.first));
         let reference = self.mass * (1.0 / self.body.rho_0);
         let least = reference * (SMALLEST * self.body.solid.least);
         let whole = (reference + self.ratio * volume).max(least);

@@ -263,7 +263,7 @@ pub(super) fn grazing(sheet: &mut Sheet) {
                     name: name.into(),
                     centre: [-1.5 * EDGE, 0.0, half + 1.02 * felt(&sheet.space())],
                     velocity: [v * s, 0.0, -v * c],
-                    ..body("steel", shape, cells)
+                    ..body("steel", shape.clone(), cells)
                 };
                 graze(sheet, above, name == "block")
             });

@@ -1,7 +1,7 @@
 //! The answer may not know units, places or the times at which somebody looks.
 
 use whipple_solver::space::Simulation;
-use whipple_solver::space::scene::{EosData, Flow, Material, Scene, Shape};
+use whipple_solver::space::scene::{EosData, Flow, Material, Scene};
 
 use super::measure::{apart, at_pace, pace};
 use super::scenes::{advance, rod, scatter};
@@ -48,14 +48,7 @@ impl Measure {
         scene.materials.iter_mut().for_each(|material| self.material(material));
         for body in &mut scene.bodies {
             let long = |x: f64| self.length * x;
-            body.shape = match body.shape {
-                Shape::Box { size } => Shape::Box { size: size.map(long) },
-                Shape::Cylinder { diameter, length } => {
-                    Shape::Cylinder { diameter: long(diameter), length: long(length) }
-                }
-                Shape::Sphere { diameter } => Shape::Sphere { diameter: long(diameter) },
-                Shape::Skewed { size, lattice } => Shape::Skewed { size: size.map(long), lattice },
-            };
+            body.shape = body.shape.scaled(self.length);
             body.centre = body.centre.map(long);
             body.velocity = body.velocity.map(|v| self.speed() * v);
             body.spin = body.spin.map(|w| w / self.time);

@@ -165,7 +165,7 @@ fn turned(scene: &mut Scene, degrees: f64) -> bool {
     let about = match shape {
         Shape::Sphere { .. } => Vector3::new(0.3, -0.5, 0.8),
         Shape::Cylinder { .. } => Vector3::z(),
-        Shape::Box { .. } | Shape::Skewed { .. } => return false,
+        _ => return false,
     };
     let rotation = |axis: Vector3<f64>, degrees: f64| {
         UnitQuaternion::from_axis_angle(&Unit::new_normalize(axis), degrees.to_radians())

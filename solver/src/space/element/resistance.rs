@@ -30,9 +30,10 @@ impl Group {
         let crushed = smallest.lt(F::splat(solid.crushed - 1.0))
             | extent.volume.lt(cells.volume_as(|volume| solid.least * volume))
             | motion.jacobian.lt(F::splat(solid.compression));
-        let tension = (F::splat(1.0) - F::of(self.damage)) * solid.bulk * widest;
-        let pulled = tension.gt(F::splat(solid.spall));
+        let cold = (F::splat(1.0) - F::of(self.damage)) * solid.bulk * widest;
+        let pulled = (cold - solid.thermal(theta)).gt(F::splat(solid.spall));
         let failing = solid.spent(F::of(self.strain), theta) | crushed | pulled;
+        let before = self.failed;
         self.failed |= failing & self.live;
         let stretched = motion.stretch_squared().gt(F::splat(solid.torn * solid.torn));
         let open = motion.jacobian.gt(F::splat(OPEN)) & self.failed;
@@ -44,6 +45,7 @@ impl Group {
         let flat = (extent.volume * extent.volume).lt(extent.largest * least);
         self.dying = (crushed | stretched | open | flat) & self.live;
         self.failed |= self.dying;
+        self.failing = self.failed & !before;
     }
 
     /// Damage of failed lanes, Eqs. (47), (49)-(50), and the energy that it sets free, (31) times the step

@@ -37,13 +37,14 @@ fn masses_are_exact() {
         (Shape::Cylinder { diameter: 0.9, length: 0.4 }, [9, 9, 4]),
         (Shape::Sphere { diameter: 0.9 }, [9, 9, 9]),
         (Shape::Sphere { diameter: 0.8 }, [8, 8, 8]),
+        (Shape::Ring { outer: 0.9, inner: 0.5, length: 0.4 }, [9, 9, 4]),
         (skewed([0.0, 0.0, 1.0], 45.0), [10, 10, 5]),
         (skewed([1.0, -1.0, 0.0], 54.7), [9, 11, 10]),
     ];
     let turn = Turn { axis: [1.0, -2.0, 0.7], degrees: 40.0 };
     for (shape, cells) in shapes {
         let centre = [3.0, -1.0, 0.5];
-        let one = Body { centre, turn, ..body("copper", shape, cells) };
+        let one = Body { centre, turn, ..body("copper", shape.clone(), cells) };
         let simulation = start(&scene(vec![copper()], vec![one]));
         let mass = simulation.holdings()[0].mass;
         assert!((mass / (8.93 * shape.volume()) - 1.0).abs() < 1e-12, "{shape:?}");
@@ -61,6 +62,41 @@ fn masses_are_exact() {
 /// A box of 0.7 x 0.6 x 0.5 cm with a turned lattice.
 fn skewed(axis: [f64; 3], degrees: f64) -> Shape {
     Shape::Skewed { size: [0.7, 0.6, 0.5], lattice: Turn { axis, degrees } }
+}
+
+/// A cone has the mass of its shape, with its centre of mass where that of the cone is to a tenth of a cell; a shape given by
+/// its cells is the shape that has them.
+#[test]
+fn cones_and_filled_shapes() {
+    let (lower, upper, length) = (1.0, 0.4, 1.2);
+    let cone = Shape::Cone { lower, upper, length };
+    let cells = [20, 20, 24];
+    let simulation = start(&scene(vec![copper()], vec![body("copper", cone.clone(), cells)]));
+    let mass = simulation.holdings()[0].mass;
+    assert!((mass / (8.93 * cone.volume()) - 1.0).abs() < 1e-12);
+    let height: f64 =
+        simulation.all_particles().map(|p| p.mass * p.position[2]).sum::<f64>() / mass;
+    let first = lower * lower + 2.0 * lower * upper + 3.0 * upper * upper;
+    let wanted = length * (0.25 * first / (lower * lower + lower * upper + upper * upper) - 0.5);
+    assert!((height - wanted).abs() < 0.1 * 0.05, "{height} {wanted}");
+
+    let ball = Shape::Sphere { diameter: 0.7 };
+    let n = 7;
+    let mut runs: Vec<[u16; 4]> = Vec::new();
+    for (k, j) in (0..n).flat_map(|k| (0..n).map(move |j| (k, j))) {
+        let row: Vec<usize> = (0..n).filter(|&i| ball.has([i, j, k], [n; 3])).collect();
+        if let Some(&first) = row.first() {
+            runs.push([first, row.len(), j, k].map(|x| x as u16));
+        }
+    }
+    let filled = Shape::Filled { size: ball.extent(), volume: ball.volume(), runs };
+    let [one, other] = [ball, filled].map(|shape| {
+        let simulation = start(&scene(vec![copper()], vec![body("copper", shape, [n; 3])]));
+        simulation.all_particles().map(|p| p.position.map(f64::to_bits)).collect::<Vec<_>>()
+    });
+    assert_eq!(one, other);
+    let small = Shape::Ring { outer: 2.0, inner: 1.0, length: 3.0 }.scaled(0.5);
+    assert_eq!(small, Shape::Ring { outer: 1.0, inner: 0.5, length: 1.5 });
 }
 
 /// A turned lattice fills its box as far as cells go, whichever of its axes is the longest; one that is not turned is that of
@@ -120,7 +156,8 @@ fn elements_name_their_particles() {
 
 /// Pressure, square of the sound speed and temperature.
 fn respond(material: &Material, rho: f64, u: f64) -> [f64; 3] {
-    let r = Eos::new(material).respond((F8([rho; 8]), F8([1.0 / rho; 8])), F8([u; 8]));
+    let loose = || F8([1.0; 8]);
+    let r = Eos::new(material).respond((F8([rho; 8]), F8([1.0 / rho; 8])), F8([u; 8]), loose);
     [r.pressure, r.sound_squared, r.theta].map(|lanes| lanes.0[5])
 }
 

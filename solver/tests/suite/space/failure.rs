@@ -1,6 +1,6 @@
 //! Elements that fail, the energy that they free, and what is left of them.
 
-use whipple_solver::space::method::Release;
+use whipple_solver::space::method::{Expansion, Release};
 use whipple_solver::space::scene::{Body, Flow};
 
 use super::scenes::{block, copper, march, scene, start, steel, strong};
@@ -123,4 +123,41 @@ fn plastic_work_is_heat() {
         // At small plastic strain the effective stress is the stress itself.
         assert!(e.equivalent_stress < 0.005 * (1.0 + 3.0 * e.strain) + 1e-9, "{e:?}");
     }
+}
+
+/// A block of warm copper comes to rest where its equation of state has no pressure (decision 0025); with `whole` at half
+/// of that expansion. It fails by no tensile strength that its heat makes up for.
+#[test]
+fn warm_material_expands_to_its_own_density() {
+    let [warm, whole] = [Expansion::Thermal, Expansion::Whole].map(|expansion| {
+        let bulk = 8.93 * 0.394 * 0.394;
+        let thermal = 8.93 * 2.02;
+        // An expansion of 1 %, whose cold tension is more than the strength.
+        let energy = 0.01 * bulk / thermal;
+        let strength = 0.009 * bulk;
+        let mut scene = scene(
+            vec![strong(copper(), 0.477, None)],
+            vec![Body { energy, ..block("copper", [6; 3], 0.1) }],
+        );
+        scene.method.expansion = expansion;
+        let mut simulation = start(&scene);
+        simulation.advance_to(40.0).unwrap();
+        let mass = simulation.holdings()[0].mass;
+        let per_mass = |of: &dyn Fn(&whipple_solver::space::output::Particle) -> f64| {
+            simulation.all_particles().map(|p| p.mass * of(&p)).sum::<f64>() / mass
+        };
+        let own = thermal * per_mass(&|p| p.u) / bulk;
+        let found = per_mass(&|p| 8.93 / p.rho) - 1.0;
+        println!("{expansion:?}: expansion {found:.5}, that without pressure {own:.5}");
+
+        // At rest its elements would pass the strength by their own tension alone.
+        scene.materials[0].failure.spall = Some(strength);
+        let mut weak = start(&scene);
+        weak.restore(&simulation.sections()).unwrap();
+        march(&mut weak, 20);
+        assert_eq!(weak.failed(), (0, 0));
+        found / own
+    });
+    assert!((warm - 1.0).abs() < 0.005, "{warm}");
+    assert!((whole - 0.5).abs() < 0.005, "{whole}");
 }

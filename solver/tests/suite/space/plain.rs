@@ -85,6 +85,10 @@ fn compare(scene: &Scene, steps: usize, [rod, all]: [f64; 2]) -> Plain {
     plain
 }
 
+/// Speed over that of Table 5. At others some part by 1e-8 in a step in which the nearest point of a surface lies on the edge of
+/// two faces: whose it is hangs on round-off, and with it what is heat when a spring jumps.
+const SPEED: f64 = 1.07;
+
 /// Without the damping of what rings, whose switch may hang on the sign of a round-off in front of a
 /// wave: two hundred steps, contacts, failed and dead elements.
 #[test]
@@ -94,16 +98,16 @@ fn the_fast_step_is_the_plain_step() {
     // With less damping more elements die.
     scene.method.visc_linear = 0.3;
     scene.method.visc_hourglass_strong = 0.1;
+    scene.bodies[0].velocity = scene.bodies[0].velocity.map(|v| SPEED * v);
     let plain = compare(&scene, 200, [1e-10, 1e-9]);
     assert!(plain.touches > 1000 && plain.deaths > 10);
 }
 
-/// Everything that the default has, on a finer rod. At other speeds some part by 1e-8 in a step in which the nearest point of a
-/// surface lies on the edge of two faces: whose it is hangs on round-off, and with it what is heat when a spring jumps.
+/// Everything that the default has, on a finer rod.
 #[test]
 fn the_default_step_is_the_plain_step() {
     let mut scene = rod(5, 15, [14, 5, 10]);
-    scene.bodies[0].velocity = scene.bodies[0].velocity.map(|v| 1.07 * v);
+    scene.bodies[0].velocity = scene.bodies[0].velocity.map(|v| SPEED * v);
     let plain = compare(&scene, 160, [1e-10; 2]);
     assert!(plain.touches > 1000 && plain.deaths > 0);
 }

@@ -54,6 +54,19 @@ fn bad_scenes_are_named() {
             let lattice = whipple_solver::space::scene::Turn { axis: [0.0; 3], degrees: 30.0 };
             s.bodies[1].shape = Shape::Skewed { size: [1.0; 3], lattice };
         }),
+        refused(|s| {
+            s.bodies[1].shape = Shape::Ring { outer: 1.0, inner: 1.5, length: 1.0 };
+        }),
+        refused(|s| {
+            s.bodies[1].shape = Shape::Ring { outer: 1.0, inner: 0.99, length: 1.0 };
+        }),
+        refused(|s| {
+            s.bodies[1].shape = Shape::Cone { lower: 1.0, upper: -0.1, length: 1.0 };
+        }),
+        refused(|s| {
+            let runs = vec![[0, 9, 0, 0]];
+            s.bodies[1].shape = Shape::Filled { size: [1.0; 3], volume: 1.0, runs };
+        }),
         refused(|s| s.bodies[1].cells = [8, 80, 8]),
         refused(|s| {
             s.bodies[1].cells = [800; 3];

@@ -114,7 +114,7 @@ pub(in crate::cases) fn diameter(
     counts: impl Fn(&Element) -> bool,
 ) -> f64 {
     let plate = &scene.bodies[PLATE];
-    let (Shape::Box { size: [edge, ..] }, [_, middle, _]) = (plate.shape, plate.centre) else {
+    let (&Shape::Box { size: [edge, ..] }, [_, middle, _]) = (&plate.shape, plate.centre) else {
         return f64::NAN;
     };
     let cell = edge / plate.cells[0] as f64;

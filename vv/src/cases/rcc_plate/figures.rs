@@ -37,10 +37,13 @@ fn over_time(
 fn holes(records: &Records) -> Option<Figure> {
     let axis = "diameter of the hole, cm";
     let angles = over_time(records, by_angle(), ["four angles, n = 4", "hole", axis])?;
+    let angles = by_angle().fold(angles, |panel, (name, key)| {
+        panel.with(Layer::horizontal(nasa(&key.variant), format!("equation, {name}")))
+    });
     let sizes = over_time(records, by_size(), ["45°, three sizes", "hole", axis])?;
     let sizes = sizes.with(Layer::horizontal(nasa(""), EQUATION));
     let caption = "Diameter of the hole over time, `default`, by angle and by cells through the plate. \
-                   Level line: NASA's equation at 45 degrees, of the hole that is left.";
+                   Level lines: NASA's equation, of the hole that is left.";
     Some(Figure::new("rcc-plate-hole", caption, vec![angles, sizes]))
 }
 

@@ -162,7 +162,7 @@ fn told(body: &Body) -> String {
         Shape::Box { size } => format!("box {}", vector(size)),
         Shape::Cylinder { diameter, length } => format!("cylinder {diameter:.4e} x {length:.4e}"),
         Shape::Sphere { diameter } => format!("sphere {diameter:.4e}"),
-        Shape::Skewed { size, .. } => format!("box {} with a turned lattice", vector(size)),
+        ref other => format!("{other:?}"),
     };
     let mut text = format!(
         "{}: {}, {shape} cm of {a} x {b} x {c} cells, centre {}, velocity {} cm/us",
