@@ -13,9 +13,11 @@ use numbers::{SCENES, SIZES, THREADS, whole};
 use times::{SimulatedTime, wall_time};
 
 mod bench;
+mod check;
 mod folder;
 mod hard;
 mod list;
+mod material;
 mod numbers;
 mod progress;
 mod random;
@@ -52,6 +54,9 @@ Examples:
   whipple run noh --preset paper --n 400 --json
   whipple run sod --set heating=printed --out out/sod
   whipple run long-rod --vtu 5us --max-wall 30min --out out/rod
+  whipple new shield.toml             a scene of your own to begin with
+  whipple check shield.toml           what it makes, before it runs
+  whipple run shield.toml --out out/shield
 
 Exit codes:
   0    fine; of run also where its numbers are not what is wanted: it is one run of many
@@ -71,9 +76,18 @@ Exit codes:
 enum Command {
     /// List the cases with sizes and variants, one case with its claims, or the keys of --set
     List(ListArgs),
-    /// Run one case and print what was measured
+    /// Run one case, or a scene file, and print what was measured
     #[command(after_help = RUN_EXIT_CODES)]
     Run(RunArgs),
+    /// Say what a scene file makes, without running it: sizes, masses, gaps, memory, time, a picture
+    #[command(after_help = "Example:\n  whipple check shield.toml --out out/shield")]
+    Check(CheckArgs),
+    /// Write a scene file to begin with, with comments
+    #[command(after_help = "Example:\n  whipple new shield.toml")]
+    New(NewArgs),
+    /// The material library: its list, or a material with its sources and Hugoniot
+    #[command(after_help = "Example:\n  whipple material show copper --out out/copper")]
+    Material(MaterialArgs),
     /// Run cases, judge their claims and write the report
     Vv(VvArgs),
     /// Redraw the report from its records, over the one that is there, without running anything
@@ -105,7 +119,7 @@ struct ListArgs {
 
 #[derive(Debug, clap::Args)]
 struct RunArgs {
-    /// Case, as `whipple list` names it
+    /// Case, as `whipple list` names it, or a scene file, whose name ends in .toml
     case: String,
     /// Numerical choices
     #[arg(long, value_enum, default_value_t = PresetArg::Default)]
@@ -181,6 +195,45 @@ struct RunArgs {
     /// Print one JSON object on standard output
     #[arg(long)]
     json: bool,
+}
+
+#[derive(Debug, clap::Args)]
+struct CheckArgs {
+    /// Scene file
+    #[arg(value_name = "FILE")]
+    scene: PathBuf,
+    /// Cells through the thinnest part of any body, if not as the file has it
+    #[arg(long, allow_hyphen_values = true, value_parser = whole(SIZES))]
+    n: Option<usize>,
+    /// Folder for pictures of the start
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+}
+
+#[derive(Debug, clap::Args)]
+struct NewArgs {
+    /// File to write
+    file: PathBuf,
+}
+
+#[derive(Debug, clap::Args)]
+struct MaterialArgs {
+    #[command(subcommand)]
+    command: MaterialCommand,
+}
+
+#[derive(Debug, Subcommand)]
+enum MaterialCommand {
+    /// All materials of the library
+    List,
+    /// One material: constants, sources, Hugoniot
+    Show {
+        /// Name
+        name: String,
+        /// Folder for its Hugoniot and its yield stress as curves
+        #[arg(long, value_name = "DIR")]
+        out: Option<PathBuf>,
+    },
 }
 
 #[derive(Debug, clap::Args)]
@@ -409,6 +462,9 @@ pub fn main() -> u8 {
     let ended = match cli.command {
         Command::List(args) => list::list(&args),
         Command::Run(args) => run::run(&args),
+        Command::Check(args) => check::check(&args),
+        Command::New(args) => check::new(&args),
+        Command::Material(args) => material::material(&args),
         Command::Vv(args) => vv(&args),
         Command::Report(args) => reports::report(&args),
         Command::Bench(args) => bench::bench(&args),
@@ -490,7 +546,7 @@ mod tests {
     fn help_reads_well() {
         let mut command = Cli::command().term_width(90);
         insta::assert_snapshot!("help", command.render_long_help());
-        for name in ["run", "vv", "report", "bench", "reference"] {
+        for name in ["run", "check", "vv", "report", "bench", "reference"] {
             let sub = command.find_subcommand_mut(name).expect("a command");
             insta::assert_snapshot!(
                 format!("help_{name}"),

@@ -25,6 +25,7 @@ pub mod references;
 pub mod report;
 pub mod run;
 pub mod scene;
+pub mod scenes;
 pub mod space;
 pub mod suggest;
 pub mod suite;

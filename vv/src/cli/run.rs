@@ -18,9 +18,11 @@ use crate::keys;
 use crate::lock::FolderLock;
 use crate::memory::Keeps;
 use crate::overrides;
-use crate::record::{RunKey, Scheme};
+use crate::record::{RunKey, RunRecord, Scheme};
+use crate::report::sig;
 use crate::run::{Request, RunError, SpaceOptions, run_with};
 use crate::scene::AnyScene;
+use crate::scenes::case::{FileCase, OVER};
 use crate::space::checkpoint::load;
 use crate::space::diagnosis::Diagnosis;
 use crate::space::recorder::Recorder;
@@ -30,7 +32,11 @@ use crate::words::counted;
 
 /// Runs a case as the arguments say.
 pub(super) fn run(args: &RunArgs) -> Result<u8, Failure> {
-    let case = find(&args.case)?;
+    let own = file_case(&args.case)?;
+    let case = match &own {
+        Some(own) => own as &dyn Case,
+        None => find(&args.case)?,
+    };
     let variant = variant(case, args)?;
     let (request, bounds, mut notes) = request(case, &variant, args)?;
     let scene = request.scene.clone();
@@ -43,6 +49,7 @@ pub(super) fn run(args: &RunArgs) -> Result<u8, Failure> {
     let progress = Progress::new(outlook);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(args.threads).build();
     let pool = pool.map_err(|e| Failure::usage(format!("cannot start threads: {e}")))?;
+    notes.extend(own.iter().flat_map(|own| own.built().notes.clone()));
     notes.extend(note_threads(args.threads));
     // Not before a refusal.
     notes.iter().for_each(|note| say(&format!("note: {note}")));
@@ -69,6 +76,7 @@ pub(super) fn run(args: &RunArgs) -> Result<u8, Failure> {
         write_outputs(out, case, &done)?;
         end(out)?;
     }
+    note_ranges(&done.record).iter().for_each(|note| say(&format!("note: {note}")));
     print(&if args.json { json(&done.record)? } else { text(&bounds, &done.record) })?;
     match done.failure {
         Some(error) => {
@@ -280,6 +288,25 @@ fn refuse_given_twice(args: &RunArgs) -> Result<(), Failure> {
         let message = format!("`--{option}` and `--set {key}` both give one value: one has to do");
         Err(Failure::usage(message))
     })
+}
+
+/// The scene of a file, where a name is that of one.
+fn file_case(name: &str) -> Result<Option<FileCase>, Failure> {
+    let path = Path::new(name);
+    let is_file = path.extension().is_some_and(|end| end == "toml");
+    is_file.then(|| FileCase::read(path).map_err(Failure::usage)).transpose()
+}
+
+/// What is said of material constants that a run took beyond their range.
+fn note_ranges(record: &RunRecord) -> Vec<String> {
+    let over =
+        record.norms.iter().filter_map(|(name, times)| Some((name.strip_suffix(OVER)?, times)));
+    let said = over.map(|(name, times)| {
+        let (material, what) = name.rsplit_once('.').unwrap_or((name, ""));
+        let times = sig(*times, 3);
+        format!("the {what} of `{material}` went to {times} times the range of its constants")
+    });
+    said.collect()
 }
 
 /// The case of a name.

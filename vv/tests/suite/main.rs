@@ -13,6 +13,7 @@ mod kills;
 mod long_runs;
 mod mapped;
 mod names;
+mod own_scenes;
 mod planar_impact;
 mod readme;
 mod report;

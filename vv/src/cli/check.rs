@@ -1,0 +1,191 @@
+//! `whipple check`: what a scene file makes, without running it; `whipple new`: a scene file to begin with.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use whipple_solver::space::Simulation;
+use whipple_solver::space::scene::Scene;
+use whipple_solver::units::Dimension;
+
+use super::sizes::expect;
+use super::{CheckArgs, Failure, NewArgs, print, say};
+use crate::cases::Case;
+use crate::files::write_atomic;
+use crate::memory::{Keeps, Need, bytes_text};
+use crate::report::sig;
+use crate::scene::AnyScene;
+use crate::scenes::case::FileCase;
+use crate::scenes::foresight::{FEW, Pace, gaps, symmetric, through};
+use crate::words::counted;
+
+/// A scene to begin with.
+const TEMPLATE: &str = include_str!("template.toml");
+
+/// Names of the axes.
+const AXES: [&str; 3] = ["x", "y", "z"];
+
+/// Says what a scene is.
+pub(super) fn check(args: &CheckArgs) -> Result<u8, Failure> {
+    let case = FileCase::read(&args.scene).map_err(Failure::usage)?;
+    let n = args.n.unwrap_or_else(|| case.default_size());
+    let any = case.scene(whipple_solver::method::Preset::Default, "", n);
+    any.validate().map_err(Failure::usage)?;
+    case.built().notes.iter().for_each(|note| say(&format!("note: {note}")));
+    expect(&case, ("--n", n), &any, Keeps::default())?;
+    let Some(scene) = any.space() else { return Ok(0) };
+    let simulation = Simulation::new(scene).map_err(Failure::usage)?;
+    let mut out = String::new();
+    if let Some(about) = &case.built().file.about {
+        let _ = writeln!(out, "{about}");
+    }
+    bodies(&mut out, scene, &simulation);
+    whole(&mut out, scene, &simulation);
+    advice(&mut out, scene, &simulation);
+    if let Some(folder) = &args.out {
+        let drawn = case.preview(&simulation, scene).map_err(Failure::usage)?;
+        for (name, [light, dark]) in drawn {
+            write_atomic(&folder.join(format!("{name}.png")), &light)?;
+            write_atomic(&folder.join(format!("{name}-dark.png")), &dark)?;
+        }
+        let _ = writeln!(out, "pictures: {}", folder.display());
+    }
+    let memory = Need::of(&any, Keeps::default());
+    let _ = writeln!(out, "memory: {}", bytes_text(memory.bytes));
+    pace(&mut out, scene, simulation, &any)?;
+    print(&out)?;
+    Ok(0)
+}
+
+fn bodies(out: &mut String, scene: &Scene, simulation: &Simulation) {
+    let length = scene.units.label(Dimension::Length);
+    let holdings = simulation.holdings();
+    for (k, body) in scene.bodies.iter().enumerate() {
+        let size = simulation.sizes(k).1.map(|edge| sig(edge, 3));
+        let particles = simulation.all_particles().filter(|p| p.body == k).count();
+        let [a, b, c] = body.cells;
+        let _ = writeln!(
+            out,
+            "{}: {}, {a} x {b} x {c} cells of {} x {} x {} {length}, {particles} particles, mass {} g",
+            body.name,
+            body.material,
+            size[0],
+            size[1],
+            size[2],
+            sig(holdings[k].mass, 4)
+        );
+    }
+}
+
+fn whole(out: &mut String, scene: &Scene, simulation: &Simulation) {
+    let now = simulation.balance().initial;
+    let units = match scene.units.label(Dimension::Pressure) {
+        "Mbar" => ["g", "g cm/µs", "kJ"],
+        "psi" => ["lbf s²/in", "lbf s", "in lbf"],
+        _ => [""; 3],
+    };
+    // A gram times (cm/us)^2 is 100 kJ.
+    let energy = if units[2] == "kJ" { 100.0 } else { 1.0 };
+    let momentum = now.momentum.map(|p| sig(p, 4)).join(", ");
+    let [mass_unit, momentum_unit, energy_unit] = units;
+    let _ = writeln!(
+        out,
+        "all: {} particles, {} elements, mass {} {mass_unit}, momentum ({momentum}) {momentum_unit}, kinetic energy {} \
+         {energy_unit}, heat {} {energy_unit}",
+        simulation.particles(),
+        simulation.elements(),
+        sig(now.mass, 4),
+        sig(energy * now.kinetic, 4),
+        sig(energy * now.internal, 4)
+    );
+}
+
+fn advice(out: &mut String, scene: &Scene, simulation: &Simulation) {
+    let length = scene.units.label(Dimension::Length);
+    let name = |k: usize| &scene.bodies[k].name;
+    let mut near = gaps(simulation, scene.bodies.len());
+    near.sort_by(|a, b| a.2.total_cmp(&b.2));
+    for &([a, b], axis, gap) in near.iter().take(5) {
+        let cell = [a, b].map(|k| simulation.sizes(k).1[0]).into_iter().fold(0.0, f64::max);
+        let word = if gap < 0.0 { "overlap by" } else { "gap of" };
+        let _ = writeln!(
+            out,
+            "`{}` and `{}`: {word} {} {length} along {}, {} of a cell",
+            name(a),
+            name(b),
+            sig(gap.abs(), 3),
+            AXES[axis],
+            sig(gap.abs() / cell, 2)
+        );
+    }
+    for body in &scene.bodies {
+        let cells = through(body);
+        if cells < FEW {
+            let _ = writeln!(
+                out,
+                "`{}` has {} through its thinnest part: {FEW} are the least that bend, and runs of two sizes show what \
+                 that costs",
+                body.name,
+                counted(cells, ["cell", "cells"])
+            );
+        }
+    }
+    let walls: Vec<usize> = scene.walls.iter().map(|wall| wall.axis).collect();
+    for axis in symmetric(scene).into_iter().filter(|axis| !walls.contains(axis)) {
+        let _ = writeln!(
+            out,
+            "symmetric in the plane {} = 0: half of it and a mirror there would do",
+            AXES[axis]
+        );
+    }
+}
+
+fn pace(
+    out: &mut String,
+    scene: &Scene,
+    simulation: Simulation,
+    any: &AnyScene,
+) -> Result<(), Failure> {
+    let unit = scene.units.label(Dimension::Time);
+    match Pace::of(simulation, any.stop_time()) {
+        Ok(pace) => {
+            let _ = writeln!(
+                out,
+                "first step {} {unit}; about {} steps of {} {unit}, {} on one thread of this machine, as far as its first steps \
+                 tell",
+                sig(pace.first, 3),
+                sig(scene.stop_time / pace.step, 2),
+                sig(pace.step, 3),
+                clock(pace.whole(scene.stop_time))
+            );
+        }
+        Err(error) => {
+            let _ = writeln!(out, "its first steps fail: {error}");
+        }
+    }
+    Ok(())
+}
+
+/// Seconds in words.
+fn clock(seconds: f64) -> String {
+    match seconds {
+        s if s < 90.0 => format!("{} s", sig(s, 2)),
+        s if s < 5400.0 => format!("{} min", sig(s / 60.0, 2)),
+        s => format!("{} h", sig(s / 3600.0, 2)),
+    }
+}
+
+/// Writes a scene to begin with.
+pub(super) fn new(args: &NewArgs) -> Result<u8, Failure> {
+    let path: &Path = &args.file;
+    if path.extension().is_none_or(|end| end != "toml") {
+        let message = format!("{} does not end in .toml, as scene files do", path.display());
+        return Err(Failure::usage(message));
+    }
+    if path.exists() {
+        return Err(Failure::usage(format!("{} is there already", path.display())));
+    }
+    write_atomic(path, TEMPLATE.as_bytes())?;
+    let path = path.display();
+    print(&format!("{path}\nwhipple check {path}\nwhipple run {path} --out out/first\n"))?;
+    Ok(0)
+}
