@@ -10,7 +10,7 @@ use whipple_solver::units::Dimension;
 use super::sizes::expect;
 use super::{CheckArgs, Failure, NewArgs, print, say};
 use crate::cases::Case;
-use crate::files::write_atomic;
+use crate::files::{ensure_writable_dir, write_atomic};
 use crate::memory::{Keeps, Need, bytes_text};
 use crate::report::sig;
 use crate::scene::AnyScene;
@@ -43,6 +43,7 @@ pub(super) fn check(args: &CheckArgs) -> Result<u8, Failure> {
     advice(&mut out, scene, &simulation);
     if let Some(folder) = &args.out {
         let drawn = case.preview(&simulation, scene).map_err(Failure::usage)?;
+        ensure_writable_dir(folder)?;
         for (name, [light, dark]) in drawn {
             write_atomic(&folder.join(format!("{name}.png")), &light)?;
             write_atomic(&folder.join(format!("{name}-dark.png")), &dark)?;

@@ -8,7 +8,7 @@ use whipple_solver::units::Units;
 
 use super::{Failure, MaterialArgs, MaterialCommand, print};
 use crate::exact::hugoniot::Hugoniot;
-use crate::files::write_atomic;
+use crate::files::{ensure_writable_dir, write_atomic};
 use crate::plots::{Axis, Figure, Panel, Series};
 use crate::report::sig;
 use crate::scenes::file::{Material, Status};
@@ -68,6 +68,7 @@ fn show(name: &str, folder: Option<&std::path::Path>) -> Result<u8, Failure> {
     })?;
     let mut out = told(found)?;
     if let Some(folder) = folder {
+        ensure_writable_dir(folder)?;
         for figure in figures(found)? {
             let path = folder.join(format!("{}.svg", figure.id));
             let drawn = crate::plots::render_svg(&figure).map_err(Failure::usage)?;

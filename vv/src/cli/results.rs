@@ -325,7 +325,8 @@ pub(super) fn text(bounds: &Bounds, record: &RunRecord) -> String {
         let value = verdict.found(4);
         out += &format!("  {}: {value}, {}\n", verdict.claim.what, bounds.judgement(verdict));
     }
-    if record.outcome != Outcome::Completed {
+    // Of a scene of the user's own nothing is ever claimed.
+    if record.outcome != Outcome::Completed || case.claims().is_empty() {
         return out;
     }
     let note = match (verdicts.is_empty(), bounds.is_changed()) {

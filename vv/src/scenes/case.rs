@@ -33,6 +33,8 @@ pub struct FileCase {
     built: Built,
     probes: Probes,
     units: &'static [(&'static str, &'static str)],
+    /// Numbers at the end, with titles that name their units.
+    numbers: &'static [(&'static str, &'static str)],
     /// Time between entries, and times of pictures.
     every: f64,
     pictures: Vec<f64>,
@@ -94,7 +96,23 @@ impl FileCase {
         let label = |kind: Option<Kind>| kind.map_or("", |kind| label(kind, built.scene.units));
         let units: Vec<(&'static str, &'static str)> =
             probes.columns().into_iter().map(|(name, kind)| (leak(name), label(kind))).collect();
-        Ok(Self { id: leak(said), units: Vec::leak(units), every, pictures, probes, built })
+        let [speed, time] =
+            [Kind::VELOCITY, Kind::TIME].map(|kind| self::label(kind, built.scene.units));
+        let numbers = built.scene.bodies.iter().map(|body| {
+            (leak(format!("{}.speed", body.name)), leak(format!("speed of {}, {speed}", body.name)))
+        });
+        let ended = (leak("ended_at".to_owned()), leak(format!("end, {time}")));
+        let numbers: Vec<_> =
+            numbers.map(|(a, b)| (&*a, &*b)).chain([(&*ended.0, &*ended.1)]).collect();
+        Ok(Self {
+            id: leak(said),
+            units: Vec::leak(units),
+            numbers: Vec::leak(numbers),
+            every,
+            pictures,
+            probes,
+            built,
+        })
     }
 
     /// What was read.
@@ -331,7 +349,7 @@ impl Case for FileCase {
     }
 
     fn tabulated(&self) -> &'static [(&'static str, &'static str)] {
-        &[]
+        self.numbers
     }
 
     fn figures(&self, _: &Records) -> Vec<Figure> {
@@ -368,9 +386,11 @@ impl FileCase {
             findings.enter(&format!("{name}.sound_part"), part);
         }
         for (material, range) in scene.materials.iter().zip(&self.built.ranges) {
-            for (what, limit) in [("pressure", range.pressure), ("temperature", range.temperature)]
-            {
-                let highest = column(&format!("{}.highest_{what}", material.name));
+            for (what, name, limit) in [
+                ("pressure", "highest_pressure", range.pressure),
+                ("temperature", "highest_sound_temperature", range.temperature),
+            ] {
+                let highest = column(&format!("{}.{name}", material.name));
                 let most = highest.iter().copied().fold(0.0, f64::max);
                 if most > limit {
                     findings.enter(&format!("{}.{what}{OVER}", material.name), most / limit);

@@ -54,6 +54,11 @@ impl FileError {
                 let hint = did_you_mean(name, known.iter().copied());
                 format!("there is no {thing} `{name}` here{hint} (there is: {})", known.join(", "))
             }
+            Some((name, _)) if said.starts_with("missing field") => {
+                format!(
+                    "the key `{name}` is missing: `whipple new` writes a scene with all that one needs"
+                )
+            }
             _ => said.to_owned(),
         };
         match error.span() {

@@ -111,7 +111,7 @@ impl Probes {
         }
         for name in &self.names {
             all.push((format!("{name}.highest_pressure"), Some(Kind::PRESSURE)));
-            all.push((format!("{name}.highest_temperature"), Some(Kind::TEMPERATURE)));
+            all.push((format!("{name}.highest_sound_temperature"), Some(Kind::TEMPERATURE)));
         }
         all.push(("end".to_owned(), None));
         all
@@ -163,10 +163,13 @@ impl Probes {
         }
         let mut highest = vec![[0.0f64; 2]; self.names.len()];
         for p in simulation.all_particles() {
-            let [pressure, theta] = &mut highest[self.materials[p.body]];
+            let [pressure, _] = &mut highest[self.materials[p.body]];
             *pressure = pressure.max(p.pressure);
-            // What has come loose bears nothing that would depend on its temperature.
-            *theta = if p.held > 0.0 { theta.max(p.theta) } else { *theta };
+        }
+        // What has failed bears nothing that would depend on its temperature.
+        for element in simulation.all_elements().filter(|e| e.live && !e.failed) {
+            let [_, theta] = &mut highest[self.materials[element.body]];
+            *theta = theta.max(simulation.particle(element.centre).theta);
         }
         row.extend(highest.into_iter().flatten());
         row.push(f64::from(u8::from(self.ends(simulation, balance, &holdings))));

@@ -8,7 +8,7 @@ use whipple_vv::record::RunRecord;
 use whipple_vv::scenes::build::Built;
 use whipple_vv::scenes::case::FileCase;
 
-use crate::common::{said, whipple};
+use crate::common::said;
 
 /// The examples, in the order of their names.
 fn examples() -> Vec<PathBuf> {
@@ -41,7 +41,7 @@ fn examples_are_scenes() {
 /// A cube of copper on another, with probes of all kinds, which ends when most of its motion is gone.
 const SMALL: &str = r#"
 stop = "4 us"
-until = { kinetic_below = "20 %" }
+until = { kinetic_below = "60 %" }
 resolution = { cell = "1 mm" }
 
 [[body]]
@@ -79,7 +79,7 @@ every = "0.05 us"
 fn a_scene_runs_to_its_condition_and_goes_on_with_the_same_bits() {
     let folder = tempfile::tempdir().expect("a folder");
     fs::write(folder.path().join("small.toml"), SMALL).expect("written");
-    let run = |args: &[&str]| said(whipple().args(args).current_dir(folder.path()));
+    let run = |args: &[&str]| said(folder.path(), args);
     let whole = run(&["run", "small.toml", "--out", "whole"]);
     assert_eq!(whole.code, Some(0), "{}", whole.err);
     let first = run(&["run", "small.toml", "--stop", "0.5us", "--out", "part"]);
@@ -92,7 +92,8 @@ fn a_scene_runs_to_its_condition_and_goes_on_with_the_same_bits() {
     let record = read("whole");
     let ended = record.norms["ended_at"];
     assert!(ended > 0.5 && ended < 4.0, "{ended}");
-    assert!((record.norms["flyer.sound_part"] - 1.0).abs() < 1e-9);
+    assert!((0.0..=1.0 + 1e-12).contains(&record.norms["flyer.sound_part"]));
+    assert!(record.norms["flyer.speed"] < 0.03);
     assert!(record.energy_drift < 1e-12);
     let history = record.history.expect("a history").0;
     let steps = history["time"].len();
@@ -172,20 +173,16 @@ fn bad_scenes_are_pointed_at() {
 #[test]
 fn a_new_scene_can_be_checked() {
     let folder = tempfile::tempdir().expect("a folder");
-    let run = |args: &[&str]| said(whipple().args(args).current_dir(folder.path()));
+    let run = |args: &[&str]| said(folder.path(), args);
     assert_eq!(run(&["new", "first.toml"]).code, Some(0));
     let again = run(&["new", "first.toml"]);
     assert_eq!((again.code, again.err.as_str()), (Some(2), "error: first.toml is there already\n"));
     assert_eq!(run(&["new", "first.txt"]).code, Some(2));
     let checked = run(&["check", "first.toml", "--out", "drawn"]);
     assert_eq!(checked.code, Some(0), "{}", checked.err);
-    for what in [
-        "sphere: al-6061-t6",
-        "gap of",
-        "symmetric in the plane x = 0",
-        "memory: ",
-        "first step",
-    ] {
+    for what in
+        ["sphere: al-6061-t6", "gap of", "symmetric in the plane x = 0", "memory: ", "first step"]
+    {
         assert!(checked.out.contains(what), "{what}: {}", checked.out);
     }
     assert!(folder.path().join("drawn/start-section.png").exists());
@@ -194,18 +191,18 @@ fn a_new_scene_can_be_checked() {
 /// The library is listed, and every material of it can be shown.
 #[test]
 fn materials_are_shown() {
-    let list = said(whipple().args(["material", "list"]));
+    let list = said(Path::new("."), &["material", "list"]);
     let names: Vec<&str> = list.out.lines().filter_map(|line| line.split(' ').next()).collect();
     assert!(names.len() >= 20);
     for name in ["al-6061-t6", "air", "water", "steel-4340"] {
         assert!(names.contains(&name));
-        let shown = said(whipple().args(["material", "show", name]));
+        let shown = said(Path::new("."), &["material", "show", name]);
         assert!(shown.code == Some(0) && shown.out.contains("sources"), "{name}: {}", shown.err);
     }
-    let none = said(whipple().args(["material", "show", "al-6061"]));
+    let none = said(Path::new("."), &["material", "show", "al-6061"]);
     assert_eq!(none.code, Some(2));
     insta::assert_snapshot!(
         "material_copper",
-        said(whipple().args(["material", "show", "copper"])).out
+        said(Path::new("."), &["material", "show", "copper"]).out
     );
 }
