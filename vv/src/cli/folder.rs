@@ -6,8 +6,9 @@ use std::path::{Path, PathBuf};
 use super::Failure;
 use crate::checkpoint::{Reader, list};
 use crate::files::write_atomic;
+use crate::pictures::PICTURES;
 use crate::record::{RunRecord, files_in};
-use crate::report;
+use crate::report::{self, Drawing};
 use crate::run::Request;
 use crate::scene::AnyScene;
 use crate::space::checkpoint::{command_in, scene_hash};
@@ -139,7 +140,14 @@ pub(super) fn clear(out: &Path) -> Result<(), Failure> {
     let own = [RECORD, LEDGER].map(|name| out.join(name));
     let frames =
         [FRAMES, FAILURE].map(|[sub, index]| Collection::files(&out.join(sub).join(index)));
-    old.iter().chain(&own).chain(frames.iter().flatten()).try_for_each(|path| remove(path))
+    let record = RunRecord::read(&out.join(RECORD)).ok();
+    let drawn = record.iter().flat_map(|record| &record.pictures);
+    let pictures: Vec<PathBuf> = drawn
+        .flat_map(|picture| Drawing::picture_files(&picture.id))
+        .map(|name| out.join(PICTURES).join(name))
+        .collect();
+    let all = old.iter().chain(&own).chain(frames.iter().flatten()).chain(&pictures);
+    all.into_iter().try_for_each(|path| remove(path))
 }
 
 fn remove(path: &Path) -> Result<(), Failure> {

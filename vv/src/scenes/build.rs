@@ -342,12 +342,11 @@ fn unique(of: &Reading<'_>, file: &SceneFile, drafts: &[Draft]) -> Result<(), Fi
     Ok(())
 }
 
-/// The materials that bodies name, with their ranges and what is to be said of them.
-fn materials(
-    of: &Reading<'_>,
-    file: &SceneFile,
-    drafts: &[Draft],
-) -> Result<(Vec<Data>, Vec<Range>, Vec<String>), FileError> {
+/// Materials, up to where their constants are good, and what is to be said of them.
+type Materials = (Vec<Data>, Vec<Range>, Vec<String>);
+
+/// The materials that bodies name.
+fn materials(of: &Reading<'_>, file: &SceneFile, drafts: &[Draft]) -> Result<Materials, FileError> {
     let library = material::library()?;
     let (mut all, mut ranges, mut notes) = (Vec::<Data>::new(), Vec::new(), Vec::new());
     let own = file.body.iter().map(|body| &body.get_ref().material);

@@ -27,6 +27,9 @@ const ENTRIES: f64 = 200.0;
 /// Share of the loose particles that pictures may leave out, beyond either end of each axis.
 const OUTSIDE: f64 = 0.02;
 
+/// A picture by its name, for light and for dark pages.
+pub type Drawn = (String, [Vec<u8>; 2]);
+
 /// A scene file that runs. Names last as long as the program, which reads few files.
 pub struct FileCase {
     id: &'static str,
@@ -102,8 +105,7 @@ impl FileCase {
             (leak(format!("{}.speed", body.name)), leak(format!("speed of {}, {speed}", body.name)))
         });
         let ended = (leak("ended_at".to_owned()), leak(format!("end, {time}")));
-        let numbers: Vec<_> =
-            numbers.map(|(a, b)| (&*a, &*b)).chain([(&*ended.0, &*ended.1)]).collect();
+        let numbers: Vec<_> = numbers.chain([ended]).collect();
         Ok(Self {
             id: leak(said),
             units: Vec::leak(units),
@@ -175,13 +177,19 @@ impl FileCase {
         &self,
         simulation: &Simulation,
         scene: &Scene,
-    ) -> Result<Vec<(String, [Vec<u8>; 2])>, PaintError> {
+    ) -> Result<Vec<Drawn>, PaintError> {
         let drawn = self.sections().map(|(end, section)| {
             let shot = self.shot(simulation, scene, section);
             Ok((format!("start{end}"), shoot(simulation, scene, &shot)?))
         });
         drawn.into_iter().collect()
     }
+}
+
+/// A time in the name of a file: six digits after the point at most.
+fn short(time: f64) -> String {
+    let text = format!("{time:.6}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
 /// A text for as long as the program runs.
@@ -312,7 +320,7 @@ impl Case for FileCase {
             }
             let ended = row.last() == Some(&1.0);
             if ended || self.pictures.contains(&time) {
-                let name = if time == 0.0 { "start".into() } else { format!("at-{time}") };
+                let name = if time == 0.0 { "start".into() } else { format!("at-{}", short(time)) };
                 self.draw(driver, scene, &name)?;
             }
             last = time;

@@ -1,6 +1,6 @@
 //! Scenes of the user's own: files with units, the material library, and how such a scene runs.
 //!
-//! A file is read ([`file`]), its numbers become those of the scene ([`quantity`], [`material`]) and its shapes cells
+//! A file is read ([`mod@file`]), its numbers become those of the scene ([`quantity`], [`material`]) and its shapes cells
 //! ([`build`]). It then is a case like the built-in ones ([`case`]): what runs, records, resumes and draws those does the
 //! same for it.
 

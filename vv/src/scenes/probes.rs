@@ -219,8 +219,8 @@ fn centres(simulation: &Simulation, bodies: usize) -> Vec<[f64; 3]> {
     for p in simulation.all_particles() {
         let sum = &mut sums[p.body];
         sum[3] += p.mass;
-        for d in 0..3 {
-            sum[d] += p.mass * p.position[d];
+        for (sum, x) in sum.iter_mut().zip(p.position) {
+            *sum += p.mass * x;
         }
     }
     sums.into_iter().map(|[x, y, z, m]| [x / m, y / m, z / m]).collect()
