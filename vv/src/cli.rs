@@ -8,6 +8,7 @@ use clap::{CommandFactory, Parser, Subcommand, ValueEnum};
 use whipple_solver::method::{Density, Preset};
 
 use crate::cases::Level;
+use crate::scenes::vary::{Key, Variation};
 use crate::words::harmless;
 use numbers::{SCENES, SIZES, THREADS, whole};
 use times::{SimulatedTime, wall_time};
@@ -27,6 +28,7 @@ mod resume;
 mod run;
 mod sensitivity;
 mod sizes;
+mod sweep;
 mod times;
 
 /// Exit code when a required claim failed.
@@ -88,6 +90,16 @@ enum Command {
     /// The material library: its list, or a material with its sources and Hugoniot
     #[command(after_help = "Example:\n  whipple material show copper --out out/copper")]
     Material(MaterialArgs),
+    /// Run a scene file with all combinations of values, a process each, into one table
+    #[command(
+        after_help = "Example:\n  whipple sweep shield.toml --vary 'body.sphere.velocity.2=5 km/s, 6 km/s, 7 km/s' --out out/sweep"
+    )]
+    Sweep(SweepArgs),
+    /// Find by bisection where the `until` of a scene file begins to be met, such as a ballistic limit
+    #[command(
+        after_help = "Example:\n  whipple limit shield.toml body.sphere.velocity.2 --low '2 km/s' --high '6 km/s' --out out/limit"
+    )]
+    Limit(LimitArgs),
     /// Run cases, judge their claims and write the report
     Vv(VvArgs),
     /// Redraw the report from its records, over the one that is there, without running anything
@@ -214,6 +226,47 @@ struct CheckArgs {
 struct NewArgs {
     /// File to write
     file: PathBuf,
+}
+
+#[derive(Debug, clap::Args)]
+struct SweepArgs {
+    /// Scene file
+    #[arg(value_name = "FILE")]
+    scene: PathBuf,
+    /// A key of the file and its values, such as 'body.sphere.velocity.2=5 km/s, 6 km/s' (repeatable: all combinations); parts
+    /// of a list are named by number from 0, or by their name
+    #[arg(long, required = true, value_name = "KEY=VALUES")]
+    vary: Vec<Variation>,
+    /// Folder, with one of its own for each run; runs that are there already are not run again
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    /// Runs at a time
+    #[arg(long, default_value_t = 1, allow_hyphen_values = true, value_parser = whole(THREADS))]
+    jobs: usize,
+    /// Write the scene files and print the commands of the runs, for a scheduler, without running them
+    #[arg(long)]
+    list: bool,
+}
+
+#[derive(Debug, clap::Args)]
+struct LimitArgs {
+    /// Scene file, with an `until`
+    #[arg(value_name = "FILE")]
+    scene: PathBuf,
+    /// Key of the file that is changed, such as body.sphere.velocity.2
+    key: Key,
+    /// One end of the range
+    #[arg(long, allow_hyphen_values = true)]
+    low: String,
+    /// The other end, where the condition is met if it is not at the first, or the other way round
+    #[arg(long, allow_hyphen_values = true)]
+    high: String,
+    /// Runs between them: each halves the range
+    #[arg(long, default_value_t = 5, allow_hyphen_values = true, value_parser = whole(1..=40))]
+    runs: usize,
+    /// Folder, with one of its own for each run; runs that are there already are not run again
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
 }
 
 #[derive(Debug, clap::Args)]
@@ -465,6 +518,8 @@ pub fn main() -> u8 {
         Command::Check(args) => check::check(&args),
         Command::New(args) => check::new(&args),
         Command::Material(args) => material::material(&args),
+        Command::Sweep(args) => sweep::sweep(&args),
+        Command::Limit(args) => sweep::limit(&args),
         Command::Vv(args) => vv(&args),
         Command::Report(args) => reports::report(&args),
         Command::Bench(args) => bench::bench(&args),

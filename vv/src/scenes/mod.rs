@@ -13,3 +13,4 @@ pub mod material;
 pub mod probes;
 pub mod quantity;
 mod stl;
+pub mod vary;

@@ -206,3 +206,59 @@ fn materials_are_shown() {
         said(Path::new("."), &["material", "show", "copper"]).out
     );
 }
+
+/// Combinations of values run once each, into one table; the search for a limit halves its range.
+#[test]
+fn sweeps_and_limits() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let coarse = SMALL
+        .replace("cell = \"1 mm\"", "cell = \"2 mm\"")
+        .replace("stop = \"4 us\"", "stop = \"0.5 us\"");
+    fs::write(folder.path().join("small.toml"), &coarse).expect("written");
+    let run = |args: &[&str]| said(folder.path(), args);
+    let speeds = "body.flyer.velocity.2=200 m/s, 300 m/s";
+    let sweep =
+        ["sweep", "small.toml", "--vary", speeds, "--vary", "stop=0.2 us, 0.3 us", "--out", "s"];
+    let listed = run(&[&sweep[..], &["--list"]].concat());
+    assert_eq!(listed.code, Some(0), "{}", listed.err);
+    assert_eq!(listed.out.lines().count(), 4);
+    assert!(
+        listed.out.starts_with("whipple run s/001/case.toml --out s/001/run\n"),
+        "{}",
+        listed.out
+    );
+    let done = run(&[&sweep[..], &["--jobs", "2"]].concat());
+    assert_eq!((done.code, done.out.as_str()), (Some(0), "s/sweep.csv\n"), "{}", done.err);
+    let table = fs::read_to_string(folder.path().join("s/sweep.csv")).expect("a table");
+    assert_eq!(table.lines().count(), 5);
+    assert!(table.starts_with("run,body.flyer.velocity.2,stop,outcome,cpu_seconds,"), "{table}");
+    assert!(table.contains("\n004,300 m/s,0.3 us,completed,"), "{table}");
+    // What has run is not run again: not a bit of the records changes, times included.
+    let record = folder.path().join("s/002/run/record.json");
+    let before = fs::read(&record).expect("a record");
+    assert_eq!(run(&sweep).code, Some(0));
+    assert_eq!(fs::read(&record).expect("a record"), before);
+    let other = run(&["sweep", "small.toml", "--vary", "stop=0.1 us, 0.3 us", "--out", "s"]);
+    assert_eq!(other.code, Some(2));
+    assert!(other.err.contains("is of another sweep"), "{}", other.err);
+    let wrong = run(&["sweep", "small.toml", "--vary", "body.flyr.velocity.2=1 m/s", "--out", "t"]);
+    assert_eq!(wrong.code, Some(2));
+    assert!(wrong.err.contains("did you mean `flyer`?"), "{}", wrong.err);
+
+    let slow = coarse
+        .replace("kinetic_below = \"60 %\"", "slower = { body = \"flyer\", than = \"150 m/s\" }");
+    fs::write(folder.path().join("slow.toml"), slow).expect("written");
+    let ends = ["--low", "100 m/s", "--high", "2100 m/s", "--runs", "2", "--out", "l"];
+    let limit = run(&[&["limit", "slow.toml", "body.flyer.velocity.2"], &ends[..]].concat());
+    assert_eq!(limit.code, Some(0), "{}", limit.err);
+    assert!(limit.out.starts_with("body.flyer.velocity.2: met at "), "{}", limit.out);
+    let runs = fs::read_dir(folder.path().join("l")).expect("a folder").count();
+    assert_eq!(runs, 4);
+    let same = run(&[
+        &["limit", "slow.toml", "body.flyer.velocity.2"],
+        &["--low", "100 m/s", "--high", "110 m/s", "--out", "l"][..],
+    ]
+    .concat());
+    assert_eq!(same.code, Some(2));
+    assert!(same.err.contains("met at both ends"), "{}", same.err);
+}
