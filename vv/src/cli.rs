@@ -18,6 +18,7 @@ mod check;
 mod folder;
 mod hard;
 mod list;
+mod manual;
 mod material;
 mod numbers;
 mod progress;
@@ -67,19 +68,13 @@ Exit codes:
   3    numerical failure
   130  interrupted, or --max-wall is over (run)";
 
-const RUN_EXIT_CODES: &str = "\
-Exit codes:
-  0    the run came to its end, also where its numbers are not what is wanted
-  2    wrong use or input
-  3    numerical failure
-  130  interrupted, or --max-wall is over";
-
 #[derive(Debug, Subcommand)]
 enum Command {
     /// List the cases with sizes and variants, one case with its claims, or the keys of --set
+    #[command(after_help = list::EXAMPLES)]
     List(ListArgs),
     /// Run one case, or a scene file, and print what was measured
-    #[command(after_help = RUN_EXIT_CODES)]
+    #[command(after_help = run::EXAMPLES)]
     Run(RunArgs),
     /// Say what a scene file makes, without running it: sizes, masses, gaps, memory, time, a picture
     #[command(after_help = "Example:\n  whipple check shield.toml --out out/shield")]
@@ -88,7 +83,7 @@ enum Command {
     #[command(after_help = "Example:\n  whipple new shield.toml")]
     New(NewArgs),
     /// The material library: its list, or a material with its sources and Hugoniot
-    #[command(after_help = "Example:\n  whipple material show copper --out out/copper")]
+    #[command(after_help = material::EXAMPLES)]
     Material(MaterialArgs),
     /// Run a scene file with all combinations of values, a process each, into one table
     #[command(
@@ -101,21 +96,33 @@ enum Command {
     )]
     Limit(LimitArgs),
     /// Run cases, judge their claims and write the report
+    #[command(after_help = reports::VV_EXAMPLES)]
     Vv(VvArgs),
     /// Redraw the report from its records, over the one that is there, without running anything
+    #[command(after_help = reports::REPORT_EXAMPLES)]
     Report(ReportArgs),
     /// Measure speed: cost of the density schemes, and the cases of impact in three dimensions
+    #[command(after_help = bench::EXAMPLES)]
     Bench(BenchArgs),
     /// Make the reference of woodward-colella, which has no exact solution; takes some minutes
     ///
     /// The Godunov code runs with 20 000 cells, and its fields, averaged to 4000 rows, are written as CSV.
     /// Records are compared with the reference that the program was built with: a new one counts after the
     /// next build.
+    #[command(after_help = reports::REFERENCE_EXAMPLE)]
     Reference(ReferenceArgs),
     /// Print a completion script for a shell
+    #[command(after_help = manual::COMPLETIONS_EXAMPLES)]
     Completions {
         /// Shell
         shell: clap_complete::Shell,
+    },
+    /// Print the manual page of the program, or write those of all commands
+    #[command(after_help = manual::MAN_EXAMPLES)]
+    Man {
+        /// Folder for a page of every command
+        #[arg(long, value_name = "DIR")]
+        out: Option<PathBuf>,
     },
 }
 
@@ -278,8 +285,10 @@ struct MaterialArgs {
 #[derive(Debug, Subcommand)]
 enum MaterialCommand {
     /// All materials of the library
+    #[command(after_help = material::LIST_EXAMPLE)]
     List,
     /// One material: constants, sources, Hugoniot
+    #[command(after_help = material::SHOW_EXAMPLE)]
     Show {
         /// Name
         name: String,
@@ -500,6 +509,12 @@ impl From<crate::record::RecordError> for Failure {
     }
 }
 
+/// The command line as data, for manuals and for tests that read commands without running them.
+#[must_use]
+pub fn command() -> clap::Command {
+    Cli::command()
+}
+
 /// Runs the program and returns its exit code.
 #[must_use]
 pub fn main() -> u8 {
@@ -524,7 +539,8 @@ pub fn main() -> u8 {
         Command::Report(args) => reports::report(&args),
         Command::Bench(args) => bench::bench(&args),
         Command::Reference(args) => reports::reference(&args),
-        Command::Completions { shell } => list::completions(shell),
+        Command::Completions { shell } => manual::completions(shell),
+        Command::Man { out } => manual::man(out.as_deref()),
     };
     match ended {
         Ok(code) => code,

@@ -1,12 +1,11 @@
-//! `whipple list` and `whipple completions`.
+//! `whipple list`.
 
 use std::collections::BTreeSet;
 
-use clap::CommandFactory;
 use whipple_solver::method::Preset;
 
 use super::run::{find, named_variants};
-use super::{Cli, Failure, ListArgs, print};
+use super::{Failure, ListArgs, print};
 use crate::cases::{ALL, Case, Level};
 use crate::claims::{Claim, Weight};
 use crate::keys::{Key, idle, of_method, of_presets, of_problem};
@@ -16,6 +15,12 @@ use crate::words::counted;
 
 /// Columns of the terminal that texts are broken for.
 const WIDTH: usize = 100;
+
+pub(super) const EXAMPLES: &str = "\
+Examples:
+  whipple list                 all cases with sizes and variants
+  whipple list noh             one of them: what is measured, claims with what is wanted
+  whipple list noh --keys      what --set can change in it, with the values of both presets";
 
 /// Prints the cases, one of them whole, or the keys of `--set`.
 pub(super) fn list(args: &ListArgs) -> Result<u8, Failure> {
@@ -224,14 +229,6 @@ fn wrapped(text: &str, indent: usize) -> String {
     }
     out.push('\n');
     out
-}
-
-/// Prints a completion script.
-pub(super) fn completions(shell: clap_complete::Shell) -> Result<u8, Failure> {
-    let mut script = Vec::new();
-    clap_complete::generate(shell, &mut Cli::command(), "whipple", &mut script);
-    print(&String::from_utf8_lossy(&script))?;
-    Ok(0)
 }
 
 #[cfg(test)]

@@ -21,6 +21,15 @@ const SPEEDS: [f64; 6] = [0.1, 0.5, 1.0, 2.0, 3.0, 5.0];
 /// Points of a curve.
 const POINTS: usize = 60;
 
+pub(super) const EXAMPLES: &str = "\
+Examples:
+  whipple material list
+  whipple material show copper --out out/copper";
+
+pub(super) const LIST_EXAMPLE: &str = "Example:\n  whipple material list";
+
+pub(super) const SHOW_EXAMPLE: &str = "Example:\n  whipple material show copper --out out/copper";
+
 /// Shows the library.
 pub(super) fn material(args: &MaterialArgs) -> Result<u8, Failure> {
     match &args.command {

@@ -34,6 +34,22 @@ const SINGLE_FILE: &str = "single-file.html";
 /// Files that are named of those that differ.
 const NAMED: usize = 5;
 
+pub(super) const VV_EXAMPLES: &str = "\
+Examples:
+  whipple vv                                       every case; the report in reports/
+  whipple vv noh sod --level quick --out out/vv    two cases, few sizes, elsewhere
+  whipple vv hard H03 --out out/hard               one of the cases that try to break the solver
+  whipple vv hard --random 100 --out out/hard      small random impacts";
+
+pub(super) const REPORT_EXAMPLES: &str = "\
+Examples:
+  whipple report                    draw reports/ anew from its records
+  whipple report --check            say whether it is what its records give
+  whipple report --single-file      one page with its pictures within, to send around";
+
+pub(super) const REFERENCE_EXAMPLE: &str =
+    "Example:\n  whipple reference --out out/woodward_colella.csv";
+
 /// Runs, judges, reports.
 pub(super) fn vv(args: &VvArgs) -> Result<u8, Failure> {
     let cases = find_all(&args.cases)?;

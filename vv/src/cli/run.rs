@@ -30,6 +30,18 @@ use crate::suggest::did_you_mean;
 use crate::suite::{command_of, scene_of};
 use crate::words::counted;
 
+pub(super) const EXAMPLES: &str = "\
+Examples:
+  whipple run noh --preset paper --n 400 --json
+  whipple run sod --set heating=printed --out out/sod
+  whipple run shield.toml --vtu 2us --checkpoint 10min --out out/shield
+
+Exit codes:
+  0    the run came to its end, also where its numbers are not what is wanted
+  2    wrong use or input
+  3    numerical failure
+  130  interrupted, or --max-wall is over";
+
 /// Runs a case as the arguments say.
 pub(super) fn run(args: &RunArgs) -> Result<u8, Failure> {
     let own = file_case(&args.case)?;

@@ -7,6 +7,7 @@ mod checkpoint_rotation;
 mod cli;
 mod common;
 mod convergence;
+mod docs;
 mod faults;
 mod fuzz;
 mod kills;
