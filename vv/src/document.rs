@@ -29,7 +29,7 @@ pub fn compose(records: &Records, verdicts: &[Verdict]) -> (Report, Vec<Figure>)
     let mut figures = Vec::new();
     let (ran, not_run): (Vec<&dyn Case>, Vec<&dyn Case>) =
         cases::ALL.iter().partition(|case| has_run(**case, records));
-    let mut sections = vec![front::reading(), front::summary(verdicts, &not_run)];
+    let mut sections = vec![front::summary(verdicts, &not_run), front::reading()];
     for case in ran {
         let (section, drawn) = case::section(case, records, verdicts);
         let group = if in_space(case) { SPACE } else { LINE };
@@ -41,6 +41,7 @@ pub fn compose(records: &Records, verdicts: &[Verdict]) -> (Report, Vec<Figure>)
         front::cost(records).within(RUNS),
         deviations::section().within(ORIGIN),
         front::provenance(records).within(ORIGIN),
+        front::commands(records).within(ORIGIN),
     ]);
     let report = Report {
         title: "Whipple: verification report".into(),

@@ -9,7 +9,7 @@ use crate::report::{Block, Cell, Column, Section, Status, Table, sig};
 use crate::suite::command_of;
 use crate::words::{counted, either};
 
-use super::front::{claims_table, escaped, tally};
+use super::front::{claims_table, escaped, recorded, tally};
 
 /// Section and figures of a case.
 pub(super) fn section(
@@ -28,6 +28,7 @@ pub(super) fn section(
             &id,
             &format!("Claims: {}.", case.title()),
             &claims,
+            false,
         )));
     }
     blocks.extend(case.extra_tables(records).into_iter().map(Block::Table));
@@ -98,7 +99,7 @@ fn norms_table(case: &dyn Case, runs: &[&RunRecord]) -> Table {
         let mut row = vec![
             r.key.scheme.label().into(),
             r.key.variant.clone().into(),
-            Cell::count(r.key.n as u64),
+            Cell { text: recorded(&r.key.n.to_string(), &r.key), ..Cell::count(r.key.n as u64) },
         ];
         let failed = matches!(r.outcome, Outcome::Failed { .. });
         for (k, (name, _)) in case.tabulated().iter().enumerate() {
@@ -118,7 +119,10 @@ fn norms_table(case: &dyn Case, runs: &[&RunRecord]) -> Table {
     let what = if case.tabulated().iter().all(error) { "Errors" } else { "Results" };
     Table {
         id: format!("{}-norms", case.id()),
-        caption: format!("{what}: {}.", case.title()),
+        caption: format!(
+            "{what}: {}. Each n leads to the record of its run.",
+            case.title()
+        ),
         columns,
         rows: rows.collect(),
     }

@@ -2,7 +2,7 @@
 
 use crate::cases::Case;
 use crate::claims::{Kind, Status as Judged, Verdict, Weight};
-use crate::record::{Outcome, Records, RunRecord, Scheme};
+use crate::record::{Outcome, Records, RunKey, RunRecord, Scheme};
 use crate::report::{Block, Cell, Column, Section, Status, Summary, Table, Tally, sig};
 use crate::words::{counted, either};
 
@@ -81,12 +81,17 @@ pub(super) fn summary(verdicts: &[Verdict], not_run: &[&dyn Case]) -> Section {
         blocks.push(Block::Callout { kind: Status::Info, text });
     }
     if !required.is_empty() {
-        blocks.push(Block::Table(claims_table("failed", "Required claims that fail.", &required)));
+        blocks.push(Block::Table(claims_table(
+            "failed",
+            "Required claims that fail.",
+            &required,
+            true,
+        )));
     }
     if !other.is_empty() {
         let caption = "Goals not reached, and known limits that are shown: of the paper's method in rows of \
                        `paper`, of this project's own in rows of `default`.";
-        blocks.push(Block::Table(claims_table("not-reached", caption, &other)));
+        blocks.push(Block::Table(claims_table("not-reached", caption, &other, true)));
     }
     Section::new("summary", "Summary", blocks)
 }
@@ -139,8 +144,13 @@ fn kinds_table(verdicts: &[Verdict]) -> Table {
     Table { id: "kinds".into(), caption: caption.into(), columns, rows }
 }
 
-/// A table of verdicts.
-pub(super) fn claims_table(id: &str, caption: &str, verdicts: &[&Verdict]) -> Table {
+/// A number that leads to the record of the run that found it.
+pub(super) fn recorded(text: &str, key: &RunKey) -> String {
+    format!("[{text}](records/{})", key.file_name())
+}
+
+/// A table of verdicts. `apart`: it does not stand in the section of its cases, and leads there.
+pub(super) fn claims_table(id: &str, caption: &str, verdicts: &[&Verdict], apart: bool) -> Table {
     let columns = vec![
         Column::text("claim"),
         Column::text("kind"),
@@ -149,21 +159,26 @@ pub(super) fn claims_table(id: &str, caption: &str, verdicts: &[&Verdict]) -> Ta
         Column::text("verdict"),
         Column::text("by what source"),
     ];
-    let rows = verdicts.iter().map(|v| claim_row(v)).collect();
+    let rows = verdicts.iter().map(|v| claim_row(v, apart)).collect();
     Table { id: id.into(), caption: caption.into(), columns, rows }
 }
 
-fn claim_row(verdict: &Verdict) -> Vec<Cell> {
+fn claim_row(verdict: &Verdict, apart: bool) -> Vec<Cell> {
     let claim = &verdict.claim;
+    // A number of one run leads to its record, one of several to the table of all runs, and from there to theirs.
+    let linked = |text: String| match claim.quantity.runs().as_slice() {
+        [key] => recorded(&text, key),
+        _ => format!("[{text}](#tab-{}-norms)", claim.case),
+    };
     let found = match (verdict.value, &verdict.fit) {
         (Some(value), Some(fit)) => {
             let (low, high) = fit.interval;
             let none = if fit.is_order() { "" } else { "no order: " };
-            let found = verdict.found(4);
+            let found = linked(verdict.found(4));
             let text = format!("{none}{found} [{}, {}]", sig(low, 4), sig(high, 4));
             Cell { text, value: Some(value), status: None }
         }
-        (Some(value), None) => Cell { text: verdict.found(5), ..Cell::number(value, 5) },
+        (Some(value), None) => Cell { text: linked(verdict.found(5)), ..Cell::number(value, 5) },
         (None, _) if verdict.status == Judged::Fail => verdict.note.clone().into(),
         (None, _) => "–".into(),
     };
@@ -183,12 +198,14 @@ fn claim_row(verdict: &Verdict) -> Vec<Cell> {
         Weight::Must => claim.kind.name().to_owned(),
         other => format!("{}, {}", claim.kind.name(), other.name()),
     };
-    let what = format!("{}: {}", claim.case, claim.what);
+    let case = if apart { format!("[{0}](#{0})", claim.case) } else { claim.case.to_owned() };
+    let what = format!("{case}: {}", claim.what);
     vec![
         what.into(),
         kind.into(),
         found,
-        verdict.wanted().into(),
+        // A sign stays with its number.
+        verdict.wanted().replace("≤ ", "≤\u{a0}").replace("≥ ", "≥\u{a0}").into(),
         Cell { status, ..Cell::text(word) },
         source.into(),
     ]
@@ -214,6 +231,9 @@ pub(super) fn reading() -> Section {
         "*Required* claims decide the verdict. A *goal* goes beyond them. A *shown* claim states a known \
          limit of the preset that it names: its failure is expected and stands here with its figure.",
         "*In sample*: a constant of the method was chosen by looking at this number.",
+        "A number that was found leads to the record of its run, in which the command stands that repeats it; one of \
+         several runs leads to the table of all runs of its case. [All records and commands](#commands) stand in one \
+         table.",
         "Orders are fitted by least squares over all sizes; the interval in brackets is 95 %; where it is \
          wider than the order itself the errors are said to have *no order*. Shocks \
          are captured over a fixed number of particles, so that RMS norms converge with order 1/2 and \
@@ -406,6 +426,24 @@ pub(super) fn provenance(records: &Records) -> Section {
                  `whipple report` redraws this page from the records.";
     blocks.push(Block::Paragraph(again.into()));
     Section::new("provenance", "Provenance", blocks)
+}
+
+/// Every run with its record and the command that repeats it.
+pub(super) fn commands(records: &Records) -> Section {
+    let rows = records.iter().map(|record| {
+        let file = record.key.file_name();
+        let name = file.trim_end_matches(".json");
+        vec![recorded(name, &record.key).into(), format!("`{}`", record.provenance.command).into()]
+    });
+    let table = Table {
+        id: "runs".into(),
+        caption: "Records of all runs and the commands that repeat them, with `--out DIR` for the record, the fields \
+                  and pictures."
+            .into(),
+        columns: vec![Column::text("record"), Column::text("command")],
+        rows: rows.collect(),
+    };
+    Section::new("commands", "Records and commands", vec![Block::Table(table)])
 }
 
 #[cfg(test)]

@@ -23,7 +23,10 @@ struct Page<'a> {
 
 impl Page<'_> {
     fn rich(&self, text: &str) -> String {
-        inline::html(text)
+        match self.pictures {
+            Pictures::Beside => inline::html(text),
+            Pictures::Within => inline::html_alone(text),
+        }
     }
 
     fn plain(&self, text: &str) -> String {
@@ -87,8 +90,9 @@ impl Page<'_> {
     }
 }
 
-/// The report as a page without scripts, in light and dark, for screen and paper. Charts are drawn in the
-/// page; it needs nothing beside it but its pictures, and those only if they are not within.
+/// The report as a page in light and dark, for screen and paper. Charts are drawn in the page; it needs nothing
+/// beside it but its pictures, and those only if they are not within. A few lines of script sort its tables; without
+/// them all is there, in its own order.
 ///
 /// # Errors
 /// An id is unfit or used twice, a figure is missing, or a row does not fit its table.

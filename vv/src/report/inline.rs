@@ -65,16 +65,28 @@ fn link(text: &str) -> Option<(Span<'_>, &str)> {
 
 /// Marked-up text as HTML.
 pub(super) fn html(text: &str) -> String {
+    written(text, |_| true)
+}
+
+/// The same for a page that stands alone: links to files beside it are their text.
+pub(super) fn html_alone(text: &str) -> String {
+    written(text, |address| address.starts_with('#') || address.contains(':'))
+}
+
+/// Marked-up text as HTML, with those links whose addresses `leads` lets through.
+fn written(text: &str, leads: fn(&str) -> bool) -> String {
     let mut out = String::new();
     for span in spans(text) {
         match span {
             Span::Sign(c) => out.push_str(&escape(c.encode_utf8(&mut [0; 4]))),
             Span::Code(code) => out.push_str(&format!("<code>{}</code>", escape(code))),
             Span::Math(tex) => out.push_str(&math(tex, DisplayMode::Inline)),
-            Span::Emphasis(text) => out.push_str(&format!("<em>{}</em>", html(text))),
-            Span::Link(text, address) => {
-                out.push_str(&format!("<a href=\"{}\">{}</a>", escape(address), html(text)));
+            Span::Emphasis(text) => out.push_str(&format!("<em>{}</em>", written(text, leads))),
+            Span::Link(text, address) if leads(address) => {
+                let text = written(text, leads);
+                out.push_str(&format!("<a href=\"{}\">{text}</a>", escape(address)));
             }
+            Span::Link(text, _) => out.push_str(&written(text, leads)),
         }
     }
     out
@@ -163,6 +175,9 @@ mod tests {
             "See *all of* `a\\|b` in [the code](https://example.org) \\<b\\>, 2 \\* 3 and \\$5 or \\*."
         );
         assert_eq!(plain(text), "See all of a|b in the code <b>, 2 * 3 and $5 or *.");
+        let links = "[a](#a) [b](records/b.json)";
+        assert_eq!(html(links), "<a href=\"#a\">a</a> <a href=\"records/b.json\">b</a>");
+        assert_eq!(html_alone(links), "<a href=\"#a\">a</a> b");
     }
 
     #[test]

@@ -92,7 +92,7 @@ fn wrong(line: &str) -> Option<String> {
 /// Commands of the program in a line of a shell: by its name, or by cargo.
 fn called(line: &str) -> Option<String> {
     let line = line.trim();
-    if line == "whipple" || line.starts_with("whipple ") {
+    if line.starts_with("whipple ") {
         return Some(line.to_owned());
     }
     let of = line.strip_prefix("cargo run ").filter(|of| !of.contains("--example"))?;
