@@ -25,19 +25,29 @@ pub fn edit_distance(a: &str, b: &str) -> usize {
     above[b.len()]
 }
 
-/// The name of `known` nearest to `wanted`, or `None` if none is within a third of the letters of
-/// `wanted` (at least one edit). Case is ignored; of equally near names the first is taken.
+/// Letters from which on the beginning of a name stands for it.
+const BEGINNING: usize = 3;
+
+/// The name of `known` nearest to `wanted`: one within a third of its letters (at least one edit), else one that
+/// begins with it, or `None`. Case is ignored; of equally near names the first is taken.
 pub fn nearest<'a>(wanted: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let wanted = wanted.to_lowercase();
     let letters = wanted.chars().count();
     let allowed = (letters / 3).max(1);
+    let known: Vec<&str> = known.into_iter().collect();
+    let begins = || {
+        let begins = |name: &&&str| name.to_lowercase().starts_with(&wanted);
+        known.iter().find(begins).copied().filter(|_| letters >= BEGINNING)
+    };
     known
-        .into_iter()
+        .iter()
+        .copied()
         .filter(|name| name.chars().count().abs_diff(letters) <= allowed)
         .map(|name| (edit_distance(&wanted, &name.to_lowercase()), name))
         .filter(|&(distance, _)| distance <= allowed)
         .min_by_key(|&(distance, _)| distance)
         .map(|(_, name)| name)
+        .or_else(begins)
 }
 
 /// The end of an error message: `` "; did you mean `name`?" `` with the name [`nearest`] finds, or
@@ -73,6 +83,8 @@ mod tests {
         assert_eq!(nearest("m", known), Some("n"));
         assert_eq!(nearest("pressure", known), None);
         assert_eq!(nearest("density", []), None);
+        assert_eq!(nearest("temp", known), Some("temperature"));
+        assert_eq!(nearest("te", known), None);
         assert_eq!(did_you_mean("temprature", known), "; did you mean `temperature`?");
         assert_eq!(did_you_mean("pressure", known), "");
     }

@@ -13,8 +13,10 @@
     if (rows.length < 3) continue;
     const heads = [...table.tHead.rows[0].cells];
     heads.forEach((head, column) => {
-      const button = document.createElement("button");
-      button.type = "button";
+      // No button element: those are left out where a head is repeated on paper.
+      const button = document.createElement("span");
+      button.setAttribute("role", "button");
+      button.tabIndex = 0;
       button.title = "sort by this column";
       button.append(...head.childNodes);
       head.append(button);
@@ -22,7 +24,7 @@
       const text = (row) => row.cells[column].textContent.trim();
       const order = (a, b) =>
         numbers ? number(text(a)) - number(text(b)) || 0 : text(a).localeCompare(text(b), "en", { numeric: true });
-      button.addEventListener("click", () => {
+      const sort = () => {
         const next = { none: "ascending", ascending: "descending", descending: "none" };
         const turn = next[head.getAttribute("aria-sort") || "none"];
         heads.forEach((other) => other.removeAttribute("aria-sort"));
@@ -30,6 +32,12 @@
         const sign = turn === "descending" ? -1 : 1;
         const sorted = turn === "none" ? rows : [...rows].sort((a, b) => sign * order(a, b));
         body.append(...sorted);
+      };
+      button.addEventListener("click", sort);
+      button.addEventListener("keydown", (event) => {
+        if (event.key !== "Enter" && event.key !== " ") return;
+        event.preventDefault();
+        sort();
       });
     });
   }

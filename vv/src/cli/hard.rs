@@ -35,8 +35,18 @@ pub(super) fn hard(args: &VvArgs) -> Result<u8, Failure> {
     }
     let all = HardRecords::read(&records)?;
     let page = draw_anew(&args.out)?;
-    print(&format!("{}report: {}\n", told(&all), page.display()))?;
-    Ok(if holds(&all, &stated()) { 0 } else { CLAIM_FAILED })
+    let held = holds(&all, &stated());
+    print(&format!("{}{}report: {}\n", told(&all), counted_for(held), page.display()))?;
+    Ok(if held { 0 } else { CLAIM_FAILED })
+}
+
+/// What to name after `vv` for a name that is that of the group or of one of its cases.
+pub(super) fn named(name: &str) -> Option<String> {
+    if name.eq_ignore_ascii_case(GROUP) {
+        return Some(GROUP.to_owned());
+    }
+    let case = ALL.iter().find(|case| case.id.eq_ignore_ascii_case(name))?;
+    Some(format!("{GROUP} {}", case.id))
 }
 
 /// The cases that are named after the group.
@@ -53,7 +63,9 @@ fn chosen(names: &[String]) -> Result<Vec<HardCase>, Failure> {
         let same = |case: &&HardCase| case.id.eq_ignore_ascii_case(id);
         ALL.iter().find(same).copied().ok_or_else(|| {
             let hint = did_you_mean(id, ALL.iter().map(|case| case.id));
-            Failure::usage(format!("no hard case `{id}`{hint}; they are H01 to H30 and W01 to W10"))
+            Failure::usage(format!(
+                "no hard case `{id}`{hint} (they are H01 to H30 and W01 to W10)"
+            ))
         })
     };
     ids.iter().map(find).collect()
@@ -99,6 +111,15 @@ fn told(records: &HardRecords) -> String {
     text
 }
 
+/// What the exit code is about.
+fn counted_for(held: bool) -> String {
+    let how = if held { "all hold (0)" } else { "not all hold (1)" };
+    format!(
+        "exit code: the required cases with {}: {how}; other schemes do not count\n",
+        SCHEMES[0].label()
+    )
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -113,5 +134,8 @@ mod tests {
         assert_eq!(chosen(&["hard", "h03", "H01"]).expect("both are there"), ["H03", "H01"]);
         assert_eq!(chosen(&["hard"]).expect("all").len(), ALL.len());
         assert!(chosen(&["noh", "hard"]).is_err() && chosen(&["hard", "H31"]).is_err());
+        assert_eq!(named("h03").as_deref(), Some("hard H03"));
+        assert!(named("noh").is_none() && named("hard").is_some());
+        assert!(counted_for(true).contains("with default: all hold (0)"));
     }
 }

@@ -32,11 +32,24 @@ struct Summary<'a> {
     energy_drift: f64,
     momentum_drift: f64,
     norms: &'a BTreeMap<String, f64>,
+    claims: Vec<ClaimSummary>,
     counters: Option<whipple_solver::counters::Counters>,
     limiters: Option<&'a BTreeMap<String, u64>>,
     #[serde(flatten)]
     space: Option<SpaceSummary>,
     provenance: &'a crate::record::Provenance,
+}
+
+/// A claim of the run that its record alone decides.
+#[derive(Serialize)]
+struct ClaimSummary {
+    claim: String,
+    kind: &'static str,
+    weight: &'static str,
+    found: Option<f64>,
+    wanted: String,
+    /// None of a run that was changed, of which nothing is claimed.
+    verdict: Option<&'static str>,
 }
 
 /// What it prints of a run in three dimensions besides.
@@ -78,7 +91,7 @@ impl SpaceSummary {
 }
 
 /// One JSON object with everything that a script needs.
-pub(super) fn json(record: &RunRecord) -> Result<String, Failure> {
+pub(super) fn json(bounds: &Bounds, record: &RunRecord) -> Result<String, Failure> {
     let (preset, density) = match record.key.scheme {
         Scheme::Godunov => (None, None),
         Scheme::Particles { preset, density } => (Some(preset.name()), Some(density.name())),
@@ -97,6 +110,7 @@ pub(super) fn json(record: &RunRecord) -> Result<String, Failure> {
         energy_drift: record.energy_drift,
         momentum_drift: record.momentum_drift,
         norms: &record.norms,
+        claims: bounds.verdicts(record).iter().map(|verdict| bounds.claimed(verdict)).collect(),
         counters: record.counters,
         limiters: record.limiters.as_ref(),
         space: SpaceSummary::new(record),
@@ -135,6 +149,19 @@ impl<'a> Bounds<'a> {
         records.insert(RunRecord { key: self.key.clone(), ..record.clone() });
         let own = |claim: &Claim| claim.quantity.runs().iter().all(|key| *key == self.key);
         judge(self.case.claims().into_iter().filter(own).collect(), &records)
+    }
+
+    /// A verdict for scripts.
+    fn claimed(&self, verdict: &Verdict) -> ClaimSummary {
+        let Claim { what, kind, weight, wanted, .. } = &verdict.claim;
+        ClaimSummary {
+            claim: what.clone(),
+            kind: kind.name(),
+            weight: weight.name(),
+            found: verdict.value,
+            wanted: wanted.text(),
+            verdict: (!self.is_changed()).then(|| verdict.word()),
+        }
     }
 
     /// What is wanted of a number and, in a run of the case as it stands, whether it is that.

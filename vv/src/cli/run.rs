@@ -8,6 +8,7 @@ use whipple_solver::space;
 use whipple_solver::units::{Dimension, Units};
 
 use super::folder::{begin, clear, end, refuse_another_run};
+use super::hard;
 use super::progress::{Outlook, Progress};
 use super::results::{Bounds, json, text, write_outputs};
 use super::resume::{self, refusal, resume};
@@ -18,7 +19,7 @@ use crate::keys;
 use crate::lock::FolderLock;
 use crate::memory::Keeps;
 use crate::overrides;
-use crate::record::{RunKey, RunRecord, Scheme};
+use crate::record::{Outcome, RunKey, RunRecord, Scheme};
 use crate::report::sig;
 use crate::run::{Request, RunError, SpaceOptions, run_with};
 use crate::scene::AnyScene;
@@ -41,6 +42,9 @@ Exit codes:
   2    wrong use or input
   3    numerical failure
   130  interrupted, or --max-wall is over";
+
+/// Steps up to which a run has hardly left its start.
+const FEW_STEPS: u64 = 2;
 
 /// Runs a case as the arguments say.
 pub(super) fn run(args: &RunArgs) -> Result<u8, Failure> {
@@ -88,8 +92,8 @@ pub(super) fn run(args: &RunArgs) -> Result<u8, Failure> {
         write_outputs(out, case, &done)?;
         end(out)?;
     }
-    note_ranges(&done.record).iter().for_each(|note| say(&format!("note: {note}")));
-    print(&if args.json { json(&done.record)? } else { text(&bounds, &done.record) })?;
+    notes_on(&done.record).iter().for_each(|note| say(&format!("note: {note}")));
+    print(&if args.json { json(&bounds, &done.record)? } else { text(&bounds, &done.record) })?;
     match done.failure {
         Some(error) => {
             let told = match (&args.out, &done.checkpoint, &scene) {
@@ -321,9 +325,26 @@ fn note_ranges(record: &RunRecord) -> Vec<String> {
     said.collect()
 }
 
+/// What is to be said of a record: ranges that were left, and a run that says nothing.
+fn notes_on(record: &RunRecord) -> Vec<String> {
+    let mut notes = note_ranges(record);
+    if record.outcome == Outcome::Completed && (1..=FEW_STEPS).contains(&record.steps) {
+        let steps = counted(record.steps as usize, ["step", "steps"]);
+        notes.push(format!(
+            "the run took {steps}: its end is shorter than a few of them, and what was measured is the start"
+        ));
+    }
+    notes
+}
+
 /// The case of a name.
 pub(super) fn find(name: &str) -> Result<&'static dyn Case, Failure> {
     cases::find(name).ok_or_else(|| {
+        if let Some(group) = hard::named(name) {
+            return Failure::usage(format!(
+                "`{name}` is one of the cases that try to break the solver, or their group: `whipple vv {group}` runs it"
+            ));
+        }
         let known: Vec<&str> = cases::ALL.iter().map(|c| c.id()).collect();
         let hint = did_you_mean(name, known);
         Failure::usage(format!("there is no case `{name}`{hint} (`whipple list` names them all)"))

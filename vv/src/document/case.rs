@@ -119,10 +119,7 @@ fn norms_table(case: &dyn Case, runs: &[&RunRecord]) -> Table {
     let what = if case.tabulated().iter().all(error) { "Errors" } else { "Results" };
     Table {
         id: format!("{}-norms", case.id()),
-        caption: format!(
-            "{what}: {}. Each n leads to the record of its run.",
-            case.title()
-        ),
+        caption: format!("{what}: {}. Each n leads to the record of its run.", case.title()),
         columns,
         rows: rows.collect(),
     }

@@ -152,11 +152,12 @@ pub(super) fn recorded(text: &str, key: &RunKey) -> String {
 /// A table of verdicts. `apart`: it does not stand in the section of its cases, and leads there.
 pub(super) fn claims_table(id: &str, caption: &str, verdicts: &[&Verdict], apart: bool) -> Table {
     let columns = vec![
+        // What a narrow screen shows comes first.
         Column::text("claim"),
-        Column::text("kind"),
+        Column::text("verdict"),
         Column::number("found", ""),
         Column::number("wanted", ""),
-        Column::text("verdict"),
+        Column::text("kind"),
         Column::text("by what source"),
     ];
     let rows = verdicts.iter().map(|v| claim_row(v, apart)).collect();
@@ -202,11 +203,11 @@ fn claim_row(verdict: &Verdict, apart: bool) -> Vec<Cell> {
     let what = format!("{case}: {}", claim.what);
     vec![
         what.into(),
-        kind.into(),
+        Cell { status, ..Cell::text(word) },
         found,
         // A sign stays with its number.
         verdict.wanted().replace("≤ ", "≤\u{a0}").replace("≥ ", "≥\u{a0}").into(),
-        Cell { status, ..Cell::text(word) },
+        kind.into(),
         source.into(),
     ]
 }
