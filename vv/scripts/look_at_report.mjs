@@ -108,11 +108,16 @@ for (const screen of SCREENS) {
   if (screen.name === "laptop") {
     console.log(`${await links(page)} links`);
     await sorts(page);
-    await page.pdf({ path: join(out, "report.pdf"), format: "A4" });
+    await page.pdf({ path: join(out, "report.pdf"), preferCSSPageSize: true });
     await page.emulateMedia({ media: "print" });
-    await page.setViewportSize({ width: 673, height: 950 }); // A4 within its margins.
+    await page.setViewportSize({ width: 673, height: 950 }); // A4 within its margins; turned, 1002.
     const cut = await page.$$eval("table, figure, pre", (all) =>
-      all.filter((one) => one.getBoundingClientRect().right > innerWidth + 1).map((one) => one.closest("[id]")?.id),
+      all
+        .filter((one) => {
+          const room = one.closest(".turned") ? 1002 : 673;
+          return one.getBoundingClientRect().width > room + 1;
+        })
+        .map((one) => one.closest("[id]")?.id),
     );
     cut.forEach((id) => wrong.push(`paper: ${id} is cut off`));
   }

@@ -37,7 +37,7 @@ impl From<PaceError> for Failure {
 pub(super) const EXAMPLES: &str = "\
 Examples:
   whipple bench rod --steps 200                    speed and phases of the long rod
-  whipple bench density --n 10000 --rounds 4       cost of the density schemes along a line
+  whipple bench density --n 10000 --rounds 4       cost of the density schemes
   whipple bench sphere --threads 4 --out out/bench";
 
 /// Measures what was asked for and prints it.

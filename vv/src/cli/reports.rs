@@ -38,7 +38,7 @@ pub(super) const VV_EXAMPLES: &str = "\
 Examples:
   whipple vv                                       every case; the report in reports/
   whipple vv noh sod --level quick --out out/vv    two cases, few sizes, elsewhere
-  whipple vv hard H03 --out out/hard               one of the cases that try to break the solver
+  whipple vv hard H03 --out out/hard               a case that tries to break the solver
   whipple vv hard --random 100 --out out/hard      small random impacts";
 
 pub(super) const REPORT_EXAMPLES: &str = "\

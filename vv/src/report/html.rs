@@ -77,6 +77,17 @@ impl Page<'_> {
         }
     }
 
+    /// Classes of a table with so many columns, which paper has smaller letters or a turned page for.
+    fn width(&self, columns: usize) -> &'static str {
+        match columns {
+            ..=8 => "",
+            9 => " nine",
+            10..=12 => " dozen",
+            13..=16 => " turned",
+            _ => " turned many",
+        }
+    }
+
     /// The heading level: chapters are below the title.
     fn level(&self, depth: &usize) -> usize {
         (depth + 2).min(6)
