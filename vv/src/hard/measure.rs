@@ -41,6 +41,22 @@ pub(super) fn energy(sheet: &mut Sheet, simulation: &Simulation) {
     sheet.at_most("residual of the elements", balance.relative_residual().abs(), 1e-3);
 }
 
+/// Runs a scene once more in a quarter of its steps, and shows the residual of the elements: how much of it is an error of
+/// the integration over time. Only at the stated size.
+pub(super) fn in_short_steps(sheet: &mut Sheet, scene: &Scene, end: f64) -> Result<(), Trouble> {
+    if sheet.size(true, false) {
+        let mut scene = scene.clone();
+        scene.method.cfl *= 0.25;
+        let mut simulation = Simulation::new(&scene)?;
+        simulation.advance_to(end)?;
+        sheet.shown(
+            "residual of the elements in steps a quarter as long",
+            simulation.balance().relative_residual().abs(),
+        );
+    }
+    Ok(())
+}
+
 /// Runs a scene to its end, and enters how short its steps got: a thousandth of the first at least. The last, which
 /// lands on the end, does not count.
 pub(super) fn to_the_end(sheet: &mut Sheet, scene: &Scene) -> Result<Simulation, Trouble> {
