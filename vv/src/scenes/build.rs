@@ -124,6 +124,23 @@ struct Draft {
     follows: Option<(usize, Option<f64>)>,
 }
 
+/// Brackets that may be open at once; a scene has four.
+const DEEPEST: usize = 64;
+
+/// Where too many brackets are open, those in comments and strings counted too. The reader of TOML runs out of its stack in
+/// a megabyte of tables in a line that never close.
+fn too_deep(text: &str) -> Option<usize> {
+    let mut open = 0usize;
+    text.bytes().position(|byte| {
+        match byte {
+            b'[' | b'{' => open += 1,
+            b']' | b'}' => open = open.saturating_sub(1),
+            _ => {}
+        }
+        open > DEEPEST
+    })
+}
+
 impl Built {
     /// Reads a scene file; `through` is another number of cells through the thinnest part.
     ///
@@ -140,6 +157,11 @@ impl Built {
     /// # Errors
     /// What is wrong with it, and where.
     pub fn of(path: &Path, text: &str, through: Option<usize>) -> Result<Self, FileError> {
+        if let Some(at) = too_deep(text) {
+            let why =
+                format!("more than {DEEPEST} brackets are open here: one before is not closed");
+            return Err(FileError::at(path, text, at..at + 1, why));
+        }
         let file: SceneFile =
             toml::from_str(text).map_err(|error| FileError::toml(path, text, &error))?;
         let of = Reading::new(path, text, file.units);
@@ -496,4 +518,17 @@ fn wall_of(of: &Reading<'_>, wall: &file::Wall) -> Result<Wall, FileError> {
             file::WallKind::Rigid => Hold::Rest,
         },
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tables_that_never_close_are_refused_before_they_are_read() {
+        let text = "[[material]]\nsolid = { c0 = \"1 km/s\", s\", s =".repeat(30_000);
+        let error = Built::of(Path::new("s.toml"), &text, None).err().map(|e| e.to_string());
+        assert!(error.is_some_and(|e| e.contains("line 64") && e.contains("not closed")));
+        assert_eq!(too_deep("a = [[1], [{ b = 2 }]]"), None);
+    }
 }
