@@ -131,12 +131,10 @@ pub fn reason(id: &str, scheme: Scheme) -> Option<&'static str> {
              density of a solid, below which there is no law of vapour",
         ),
         "W01" | "W08" | "W10" if scheme == SCHEMES[0] => Some(
-            "an error of the integration over time: where a cell is strained by some percent in a step; in steps a quarter as long the \
-             residual is within 0.1 %",
+            "an error of the integration over time: it falls with the length of the steps, as the readings in shorter ones show",
         ),
         "W07" if scheme == SCHEMES[0] => Some(
-            "the step is too long about a cell of such heat: with 1000 kJ/g the whole block dies, in half of the step a third of it, and \
-             the residual falls to a five-hundredth in a quarter",
+            "the step is too long about a cell of such heat: in shorter steps, also shown, fewer elements die and the residual falls",
         ),
         "H24" => {
             Some("the longer the ramp, the more of the stored energy sets the block moving instead")

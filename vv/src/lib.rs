@@ -14,6 +14,7 @@ pub mod hard;
 pub mod keys;
 pub mod lock;
 pub mod memory;
+mod nesting;
 pub mod norms;
 pub mod overrides;
 pub mod pace;

@@ -5,6 +5,7 @@ use serde_json::Value;
 use whipple_solver::method::Preset;
 
 use crate::cases;
+use crate::nesting::{DEEPEST, too_deep};
 use crate::scene::AnyScene;
 use crate::suggest::did_you_mean;
 
@@ -215,6 +216,9 @@ fn no_key(key: &str, value: &str, part: &str, place: &str, known: &[&str]) -> Ov
 
 /// A TOML value, or a bare word.
 fn parse(text: &str) -> Result<Value, String> {
+    if too_deep(text).is_some() {
+        return Err(format!("at most {DEEPEST} brackets may be open at once"));
+    }
     let value = match toml::from_str::<toml::Table>(&format!("value = {text}")) {
         Ok(mut table) => table.remove("value").unwrap_or(toml::Value::String(text.into())),
         Err(_) => toml::Value::String(text.into()),

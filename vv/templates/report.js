@@ -30,7 +30,9 @@
         heads.forEach((other) => other.removeAttribute("aria-sort"));
         if (turn !== "none") head.setAttribute("aria-sort", turn);
         const sign = turn === "descending" ? -1 : 1;
-        const sorted = turn === "none" ? rows : [...rows].sort((a, b) => sign * order(a, b));
+        const none = (row) => Number(numbers && number(text(row)) === Infinity);
+        const sorted =
+          turn === "none" ? rows : [...rows].sort((a, b) => none(a) - none(b) || sign * order(a, b));
         body.append(...sorted);
       };
       button.addEventListener("click", sort);

@@ -5,7 +5,7 @@ use whipple_solver::space::output::Particle;
 use whipple_solver::space::scene::{Body, Shape};
 
 use super::contact::brittle;
-use super::measure::{energy, in_short_steps, largest, to_the_end};
+use super::measure::{RESIDUAL, energy, in_short_steps, largest, to_the_end};
 use super::scenes::{ALUMINIUM, HEAT, STEEL, begin, block, body, scene};
 use super::sheet::{Bound, Sheet, Trouble};
 
@@ -46,7 +46,7 @@ fn hot_cell(sheet: &mut Sheet, heat: f64, part: f64) -> Result<(), Trouble> {
     sheet.shown("elements that have died", simulation.failed().1 as f64);
     if part < 1.0 {
         sheet.shown("shortest step over the first", shortest / first);
-        sheet.shown("residual of the elements", simulation.balance().relative_residual().abs());
+        sheet.shown(RESIDUAL, simulation.balance().relative_residual().abs());
         return Ok(());
     }
     let finite = |p: &Particle| (p.u + p.rho + p.pressure + p.theta).is_finite();

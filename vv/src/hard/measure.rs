@@ -4,6 +4,9 @@ use whipple_solver::space::{Scene, Simulation};
 
 use super::sheet::{Sheet, Trouble};
 
+/// What is read of the balance of elements and springs.
+pub(super) const RESIDUAL: &str = "residual of the elements";
+
 /// Largest size of some numbers; what is no number is larger than any.
 pub(super) fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
     values.into_iter().fold(0.0, |worst: f64, value| {
@@ -38,7 +41,7 @@ pub(super) fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
 pub(super) fn energy(sheet: &mut Sheet, simulation: &Simulation) {
     let balance = simulation.balance();
     sheet.at_most("error of the energy balance", balance.energy_drift(), 1e-12);
-    sheet.at_most("residual of the elements", balance.relative_residual().abs(), 1e-3);
+    sheet.at_most(RESIDUAL, balance.relative_residual().abs(), 1e-3);
 }
 
 /// Runs a scene once more in a quarter of its steps, and shows the residual of the elements: how much of it is an error of

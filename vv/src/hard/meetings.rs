@@ -3,7 +3,7 @@
 use whipple_solver::space::Simulation;
 use whipple_solver::space::scene::{Body, Scene, Turn};
 
-use super::measure::{energy, in_short_steps, largest, minus, norm, to_the_end};
+use super::measure::{RESIDUAL, energy, in_short_steps, largest, minus, norm, to_the_end};
 use super::scenes::{ALUMINIUM, STEEL, advance, block, bricks, rod_metals, scene, sleeve};
 use super::sheet::{Bound, Sheet, Trouble};
 
@@ -53,10 +53,12 @@ pub(super) fn needle(sheet: &mut Sheet) {
 /// W02: elastic cubes meet on faces, edges and corners, exactly in line. With 8 cells across; with 4 the viscosity of so
 /// few cells takes up the vibration into which edges and corners turn the motion, which is shown.
 pub(super) fn corners(sheet: &mut Sheet) {
-    let upright = Turn::default();
-    let edge = Turn { axis: [0.0, 0.0, 1.0], degrees: 45.0 };
+    // With how far each reaches from its middle along the axis of the meeting, over its edge.
+    let upright = (Turn::default(), 0.5);
+    let edge = (Turn { axis: [0.0, 0.0, 1.0], degrees: 45.0 }, 0.5 * 2f64.sqrt());
     // From the diagonal of the cube to the x axis.
-    let corner = Turn { axis: [0.0, 1.0, -1.0], degrees: (1.0 / DIAGONAL).acos().to_degrees() };
+    let to_the_axis = (1.0 / DIAGONAL).acos().to_degrees();
+    let corner = (Turn { axis: [0.0, 1.0, -1.0], degrees: to_the_axis }, 0.5 * DIAGONAL);
     let pairs = [
         ("face on face", [upright, upright]),
         ("edge on edge", [edge, edge]),
@@ -77,24 +79,24 @@ pub(super) fn corners(sheet: &mut Sheet) {
     }
 }
 
-/// Two cubes of so many cells across, one turned so, the other so; what is not asked for is shown.
+/// Two cubes of so many cells across, turned so, and how far they reach; what is not asked for is shown.
 fn cubes(
     sheet: &mut Sheet,
-    turns: [Turn; 2],
+    turns: [(Turn, f64); 2],
     aside: f64,
     (n, asked): (usize, bool),
 ) -> Result<(), Trouble> {
     let size = CUBE;
     let cell = size / n as f64;
     let apart = 0.51 * cell;
-    let reach = turns.map(|turn| size * reach(turn));
+    let reach = turns.map(|(_, reach)| size * reach);
     let cube = |side: f64, k: usize| Body {
         centre: [
             side * (reach[k] + 0.5 * apart),
             0.5 * side * aside * cell,
             0.3 * side * aside * cell,
         ],
-        turn: turns[k],
+        turn: turns[k].0,
         velocity: [-side * 0.005, 0.0, 0.0],
         ..block("steel", [n; 3], cell)
     };
@@ -116,7 +118,7 @@ fn cubes(
     if !asked {
         sheet.shown(APART, apart);
         sheet.shown(OVERLAP, overlap);
-        sheet.shown("residual of the elements", simulation.balance().relative_residual().abs());
+        sheet.shown(RESIDUAL, simulation.balance().relative_residual().abs());
         return Ok(());
     }
     sheet.at_least(APART, apart, 0.1);
@@ -124,15 +126,6 @@ fn cubes(
     sheet.at_most("error of the momentum", simulation.balance().momentum_drift(), 1e-12);
     energy(sheet, &simulation);
     Ok(())
-}
-
-/// How far a cube reaches from its middle along the axis of the meeting, over its edge.
-fn reach(turn: Turn) -> f64 {
-    match turn.degrees {
-        0.0 => 0.5,
-        45.0 => 0.5 * 2f64.sqrt(),
-        _ => 0.5 * DIAGONAL,
-    }
 }
 
 /// Mean place of the particles of the first two bodies, by mass.

@@ -13,6 +13,7 @@ use super::file::{self, Quantity, SceneFile};
 use super::material::{self, Range};
 use super::quantity::{self, Kind};
 use super::stl;
+use crate::nesting::{DEEPEST, too_deep};
 use crate::suggest::did_you_mean;
 
 /// Gap between layers that touch, over the edge of the larger cells: from half an edge on bodies feel each other.
@@ -122,23 +123,6 @@ struct Draft {
     surface: Option<stl::Surface>,
     /// Axis of the stack in which it follows the body before, and the gap to that; none for touching.
     follows: Option<(usize, Option<f64>)>,
-}
-
-/// Brackets that may be open at once; a scene has four.
-const DEEPEST: usize = 64;
-
-/// Where too many brackets are open, those in comments and strings counted too. The reader of TOML runs out of its stack in
-/// a megabyte of tables in a line that never close.
-fn too_deep(text: &str) -> Option<usize> {
-    let mut open = 0usize;
-    text.bytes().position(|byte| {
-        match byte {
-            b'[' | b'{' => open += 1,
-            b']' | b'}' => open = open.saturating_sub(1),
-            _ => {}
-        }
-        open > DEEPEST
-    })
 }
 
 impl Built {
@@ -529,6 +513,5 @@ mod tests {
         let text = "[[material]]\nsolid = { c0 = \"1 km/s\", s\", s =".repeat(30_000);
         let error = Built::of(Path::new("s.toml"), &text, None).err().map(|e| e.to_string());
         assert!(error.is_some_and(|e| e.contains("line 64") && e.contains("not closed")));
-        assert_eq!(too_deep("a = [[1], [{ b = 2 }]]"), None);
     }
 }

@@ -2,6 +2,7 @@
 
 use toml::Value;
 
+use crate::nesting::{DEEPEST, too_deep};
 use crate::suggest::did_you_mean;
 
 /// A key of a scene file, such as `body.sphere.velocity.2`: parts of a list are named by number from 0, or by `name`.
@@ -55,6 +56,9 @@ impl std::str::FromStr for Variation {
 /// # Errors
 /// In words, a key that is not there.
 pub fn vary(text: &str, changes: &[(&Key, &str)]) -> Result<String, String> {
+    if too_deep(text).is_some() {
+        return Err(format!("more than {DEEPEST} brackets are open at once"));
+    }
     let mut whole: Value = toml::from_str(text).map_err(|error| error.message().to_owned())?;
     for (key, value) in changes {
         let place = find(&mut whole, key)?;
