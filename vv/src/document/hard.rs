@@ -117,7 +117,7 @@ fn detail(case: &Stated, records: &HardRecords) -> Option<Section> {
             plain(&what).into(),
             number(reading),
             bound(reading.bound).into(),
-            verdict(reading.pass),
+            if reading.decides() { verdict(reading.pass) } else { Cell::text("–") },
         ]
     };
     let rows =
@@ -154,8 +154,8 @@ fn number(reading: &Reading) -> Cell {
 fn bound(bound: Bound) -> String {
     let text = |value: f64| Cell::number(value, 3).text;
     match bound {
-        Bound::AtMost(most) => format!("≤ {}", text(most)),
-        Bound::AtLeast(least) => format!("≥ {}", text(least)),
+        Bound::AtMost(most) => format!("≤\u{a0}{}", text(most)),
+        Bound::AtLeast(least) => format!("≥\u{a0}{}", text(least)),
         Bound::Shown => "shown".into(),
     }
 }
@@ -163,7 +163,7 @@ fn bound(bound: Bound) -> String {
 /// What happened, in a line.
 fn happened(record: &HardRecord) -> String {
     let failed: Vec<&Reading> = record.readings.iter().filter(|reading| !reading.pass).collect();
-    let all = record.readings.len();
+    let all = record.readings.iter().filter(|reading| reading.decides()).count();
     if failed.is_empty() {
         return format!("all {all} numbers hold");
     }

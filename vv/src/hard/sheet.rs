@@ -107,6 +107,14 @@ pub struct Reading {
     pub said: Option<String>,
 }
 
+impl Reading {
+    /// Whether it decides anything: what is only shown does where there is no number.
+    #[must_use]
+    pub fn decides(&self) -> bool {
+        self.bound != Bound::Shown || !self.pass
+    }
+}
+
 /// What a case writes its numbers to, and what it runs with.
 #[derive(Debug)]
 pub struct Sheet {
@@ -223,6 +231,9 @@ mod tests {
         });
         let passed: Vec<bool> = sheet.readings.iter().map(|reading| reading.pass).collect();
         assert_eq!(passed, [false, true]);
+        sheet.shown("a number", 2.0);
+        let decides: Vec<bool> = sheet.readings.iter().map(Reading::decides).collect();
+        assert_eq!(decides, [true, true, false]);
         let said = sheet.readings[0].said.as_deref();
         assert!(said.is_some_and(|said| said.contains("nothing there")), "{said:?}");
     }
