@@ -8,13 +8,16 @@ use clap::{CommandFactory, Parser, Subcommand, ValueEnum};
 use whipple_solver::method::{Density, Preset};
 
 use crate::cases::Level;
+use crate::scenes::case::Section;
 use crate::scenes::vary::{Key, Variation};
+use crate::space::picture::Shown;
 use crate::words::harmless;
 use numbers::{SCENES, SIZES, THREADS, whole};
 use times::{SimulatedTime, wall_time};
 
 mod bench;
 mod check;
+mod compare;
 mod folder;
 mod hard;
 mod list;
@@ -28,6 +31,7 @@ mod results;
 mod resume;
 mod run;
 mod sensitivity;
+mod show;
 mod sizes;
 mod sweep;
 mod times;
@@ -95,6 +99,12 @@ enum Command {
         after_help = "Example:\n  whipple limit shield.toml body.sphere.velocity.2 --low '2 km/s' --high '6 km/s' --out out/limit"
     )]
     Limit(LimitArgs),
+    /// Show what a run has left in its folder: findings, energies, fragments, a picture of its last state
+    #[command(after_help = show::EXAMPLES)]
+    Show(ShowArgs),
+    /// Compare two runs: scenes, findings, histories
+    #[command(after_help = compare::EXAMPLES)]
+    Compare(CompareArgs),
     /// Run cases, judge their claims and write the report
     #[command(after_help = reports::VV_EXAMPLES)]
     Vv(VvArgs),
@@ -274,6 +284,83 @@ struct LimitArgs {
     /// Folder, with one of its own for each run; runs that are there already are not run again
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
+}
+
+#[derive(Debug, clap::Args)]
+struct ShowArgs {
+    /// Folder of a run
+    #[arg(value_name = "RUN")]
+    run: PathBuf,
+    /// Checkpoint whose state is shown, if not the last one of the folder
+    #[arg(long, value_name = "FILE")]
+    checkpoint: Option<PathBuf>,
+    /// Cut the picture at a plane, such as y=0 or 'z=2 mm'; it passes a quarter of a cell beside the value, since a
+    /// cut along faces of elements is ragged
+    #[arg(long, value_name = "AXIS=PLACE", allow_hyphen_values = true)]
+    section: Option<Section>,
+    /// What decides the colours
+    #[arg(long, value_enum, default_value_t = ColourArg::Body)]
+    colour: ColourArg,
+    /// Folder for the picture, for light and dark pages, and for fragments.csv; other files are not replaced
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Print one JSON object on standard output
+    #[arg(long)]
+    json: bool,
+}
+
+/// What `show` colours by.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum ColourArg {
+    /// The body
+    Body,
+    /// The material
+    Material,
+    /// The speed
+    Velocity,
+    /// The pressure
+    Pressure,
+    /// The density
+    Density,
+    /// The temperature
+    Temperature,
+    /// The damage of elements
+    Damage,
+    /// The effective plastic strain of elements
+    PlasticStrain,
+}
+
+impl ColourArg {
+    fn shown(self) -> Shown {
+        match self {
+            Self::Body => Shown::Body,
+            Self::Material => Shown::Material,
+            Self::Velocity => Shown::Velocity,
+            Self::Pressure => Shown::Pressure,
+            Self::Density => Shown::Density,
+            Self::Temperature => Shown::Temperature(None),
+            Self::Damage => Shown::Damage,
+            Self::PlasticStrain => Shown::PlasticStrain(None),
+        }
+    }
+
+    /// In names of files.
+    fn name(self) -> String {
+        self.to_possible_value().map_or_else(String::new, |value| value.get_name().to_owned())
+    }
+}
+
+#[derive(Debug, clap::Args)]
+struct CompareArgs {
+    /// Folders of two runs
+    #[arg(value_name = "RUN", num_args = 2)]
+    runs: Vec<PathBuf>,
+    /// Folder for a figure of the histories, as SVG and PNG; other files are not replaced
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Print one JSON object on standard output
+    #[arg(long)]
+    json: bool,
 }
 
 #[derive(Debug, clap::Args)]
@@ -535,6 +622,8 @@ pub fn main() -> u8 {
         Command::Material(args) => material::material(&args),
         Command::Sweep(args) => sweep::sweep(&args),
         Command::Limit(args) => sweep::limit(&args),
+        Command::Show(args) => show::show(&args),
+        Command::Compare(args) => compare::compare(&args),
         Command::Vv(args) => vv(&args),
         Command::Report(args) => reports::report(&args),
         Command::Bench(args) => bench::bench(&args),

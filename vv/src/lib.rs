@@ -1,5 +1,6 @@
 //! The harness of Whipple: cases, exact solutions, norms, claims, records and the report.
 
+pub mod after;
 pub mod cases;
 pub mod checkpoint;
 pub mod claims;

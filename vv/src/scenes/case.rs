@@ -1,6 +1,7 @@
 //! A scene file as a case: it runs, records, resumes and draws as the built-in ones do.
 
 use std::path::Path;
+use std::str::FromStr;
 
 use whipple_solver::method::Preset;
 use whipple_solver::space::{Scene, Simulation};
@@ -10,7 +11,7 @@ use super::build::Built;
 use super::error::FileError;
 use super::file::{Axis, Colour};
 use super::probes::Probes;
-use super::quantity::Kind;
+use super::quantity::{Kind, read};
 use crate::cases::{Case, Level};
 use crate::claims::Claim;
 use crate::overrides;
@@ -257,6 +258,67 @@ fn across(axis: Axis, cell: [f64; 3]) -> Plane {
     point[axis.index()] = 0.25 * edge;
     normal[axis.index()] = 1.0;
     Plane { point, normal }
+}
+
+/// A plane across an axis, as options name it: `y=0`, `z=2 mm`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Section {
+    axis: Axis,
+    place: String,
+}
+
+impl FromStr for Section {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let wanted =
+            || format!("`{text}` is no plane: wanted an axis and a place, such as y=0 or 'z=2 mm'");
+        let (axis, place) = text.split_once('=').ok_or_else(wanted)?;
+        let axis = match axis.trim() {
+            "x" => Axis::X,
+            "y" => Axis::Y,
+            "z" => Axis::Z,
+            _ => return Err(wanted()),
+        };
+        Ok(Self { axis, place: place.trim().to_owned() })
+    }
+}
+
+impl Section {
+    /// In names of files: what is no letter, digit, point or sign becomes a line.
+    #[must_use]
+    pub fn label(&self) -> String {
+        let axis = ["x", "y", "z"][self.axis.index()];
+        let plain = |c: char| if c.is_ascii_alphanumeric() || "+-.".contains(c) { c } else { '_' };
+        format!("{axis}{}", self.place.chars().map(plain).collect::<String>())
+    }
+}
+
+/// How a state is drawn that no scene file tells of: all of it, or cut at a plane, whose place is a number with a
+/// unit, or a plain one in the units of the scene.
+///
+/// # Errors
+/// A place that is no length.
+pub fn state_shot(
+    simulation: &Simulation,
+    scene: &Scene,
+    section: Option<&Section>,
+    shown: Shown,
+) -> Result<Shot, String> {
+    let (mut camera, section) = match section {
+        None => (aside(scene), None),
+        Some(Section { axis, place }) => {
+            let mut plane = across(*axis, simulation.sizes(0).1);
+            let value = match place.parse::<f64>() {
+                Ok(value) if value.is_finite() => value,
+                _ => read(place, Kind::LENGTH, scene.units)?,
+            };
+            plane.point[axis.index()] += value;
+            (onto(*axis, scene), Some(plane))
+        }
+    };
+    camera.frame = Some(frame(simulation, OUTSIDE));
+    Ok(Shot { title: scene.name.clone(), camera, section, shown, loose: true })
 }
 
 /// A scene with the method of a preset and what the file changes of it.

@@ -19,6 +19,29 @@ pub enum Shown {
     Temperature(Option<(f64, f64)>),
     /// The effective plastic strain of elements, likewise; loose particles have none.
     PlasticStrain(Option<(f64, f64)>),
+    /// The material.
+    Material,
+    /// The size of the velocity.
+    Velocity,
+    /// The pressure.
+    Pressure,
+    /// The density.
+    Density,
+    /// The damage of elements, from 0 to 1; loose particles have none.
+    Damage,
+}
+
+impl Shown {
+    /// Its value at a particle; what only elements have is not a number.
+    fn of(self, p: &Particle) -> f64 {
+        match self {
+            Self::Body | Self::Material | Self::Temperature(_) => p.theta,
+            Self::Velocity => p.velocity.iter().map(|v| v * v).sum::<f64>().sqrt(),
+            Self::Pressure => p.pressure,
+            Self::Density => p.rho,
+            Self::PlasticStrain(_) | Self::Damage => f64::NAN,
+        }
+    }
 }
 
 /// A picture of a state.
@@ -85,21 +108,24 @@ pub fn frame(simulation: &Simulation, share: f64) -> [[f64; 3]; 2] {
 }
 
 /// Live elements as hexahedra, particles without live elements as spheres or ellipsoids as wide as a
-/// contact is long. The value of a mark is the plastic strain of an element if that is shown, otherwise the
-/// temperature: of a particle, or the mean of an element by mass.
+/// contact is long. The value of a mark is the plastic strain or damage of an element if that is shown, otherwise
+/// what is shown of a particle, or its mean over an element by mass.
 #[must_use]
 pub fn model(simulation: &Simulation, shown: Shown) -> Model {
     let particles: Vec<Particle> = simulation.all_particles().collect();
     let at = places(&particles);
     let particle = |id: u32| &particles[at[id as usize] as usize];
     let elements = simulation.all_elements().filter(|element| element.live);
-    let strained = matches!(shown, Shown::PlasticStrain(_));
     let mean = |element: &Element| {
-        let corners: f64 = element.corners.iter().map(|&id| particle(id).theta).sum();
-        0.5 * particle(element.centre).theta + 0.0625 * corners
+        let corners: f64 = element.corners.iter().map(|&id| shown.of(particle(id))).sum();
+        0.5 * shown.of(particle(element.centre)) + 0.0625 * corners
     };
     let hexahedron = |element: Element| {
-        let value = if strained { element.strain } else { mean(&element) };
+        let value = match shown {
+            Shown::PlasticStrain(_) => element.strain,
+            Shown::Damage => element.damage,
+            _ => mean(&element),
+        };
         Hexahedron {
             nodes: element.ring().map(|id| at[id as usize]),
             mark: Mark { value: value as f32, class: class(element.body) },
@@ -108,10 +134,7 @@ pub fn model(simulation: &Simulation, shown: Shown) -> Model {
     let hexahedra = elements.map(hexahedron).collect();
     let radii: Vec<f64> =
         (0..simulation.bodies()).map(|body| 0.5 * simulation.sizes(body).0).collect();
-    let mark = |p: &Particle| Mark {
-        value: if strained { f32::NAN } else { p.theta as f32 },
-        class: class(p.body),
-    };
+    let mark = |p: &Particle| Mark { value: shown.of(p) as f32, class: class(p.body) };
     let (mut spheres, mut ellipsoids) = (Vec::new(), Vec::new());
     for p in particles.iter().filter(|p| p.held == 0.0) {
         let centre = p.position;
@@ -129,6 +152,18 @@ pub fn model(simulation: &Simulation, shown: Shown) -> Model {
     Model { points, spheres, hexahedra, ellipsoids }
 }
 
+/// Turns the classes of a model from bodies into materials.
+fn by_material(model: &mut Model, scene: &Scene) {
+    let own = |body: &whipple_solver::space::scene::Body| scene.material_index(&body.material);
+    let classes: Vec<u8> = scene.bodies.iter().map(|body| class(own(body).unwrap_or(0))).collect();
+    let turn = |mark: &mut Mark| {
+        mark.class = classes.get(usize::from(mark.class)).copied().unwrap_or(mark.class);
+    };
+    model.hexahedra.iter_mut().for_each(|hexahedron| turn(&mut hexahedron.mark));
+    model.spheres.iter_mut().for_each(|sphere| turn(&mut sphere.mark));
+    model.ellipsoids.iter_mut().for_each(|ellipsoid| turn(&mut ellipsoid.mark));
+}
+
 /// Class of a body.
 fn class(body: usize) -> u8 {
     body.min(usize::from(u8::MAX)) as u8
@@ -143,7 +178,19 @@ pub fn shoot(
     scene: &Scene,
     shot: &Shot,
 ) -> Result<[Vec<u8>; 2], PaintError> {
+    let field = |name: &str, unit: &str, range: Option<(f64, f64)>| {
+        let (name, unit) = (name.to_owned(), unit.to_owned());
+        Colouring::Field(Field { name, unit, range, map: ColourMap::Viridis })
+    };
+    let unit = |dimension: Dimension| scene.units.label(dimension);
     let colouring = match shot.shown {
+        Shown::Material => {
+            Colouring::Classes(scene.materials.iter().map(|m| m.name.clone()).collect())
+        }
+        Shown::Velocity => field("speed", unit(Dimension::Velocity), None),
+        Shown::Pressure => field("pressure", unit(Dimension::Pressure), None),
+        Shown::Density => field("density", unit(Dimension::Density), None),
+        Shown::Damage => field("damage", "", Some((0.0, 1.0))),
         Shown::Body => Colouring::Classes(scene.bodies.iter().map(|b| b.name.clone()).collect()),
         Shown::Temperature(range) => Colouring::Field(Field {
             name: "temperature".to_owned(),
@@ -151,12 +198,7 @@ pub fn shoot(
             range,
             map: ColourMap::Heat,
         }),
-        Shown::PlasticStrain(range) => Colouring::Field(Field {
-            name: "effective plastic strain".to_owned(),
-            unit: String::new(),
-            range,
-            map: ColourMap::Viridis,
-        }),
+        Shown::PlasticStrain(range) => field("effective plastic strain", "", range),
     };
     let unit = match scene.units.label(Dimension::Length) {
         "" => "units of length",
@@ -174,6 +216,9 @@ pub fn shoot(
     };
     let dark = Picture { theme: Theme::Dark, ..light.clone() };
     let mut model = model(simulation, shot.shown);
+    if shot.shown == Shown::Material {
+        by_material(&mut model, scene);
+    }
     if !shot.loose {
         model.spheres.clear();
         model.ellipsoids.clear();
