@@ -1,6 +1,7 @@
 //! Tests of the harness through its public interface and its program, as one binary so that it
 //! links once.
 
+mod after;
 mod checkpoint;
 mod checkpoint_damage;
 mod checkpoint_rotation;
