@@ -109,8 +109,17 @@ const ENERGIES: [&str; 8] = [
     "wall_work",
 ];
 
+/// The farthest that bodies of two records reach from the origin at the start: the lever of angular momenta.
+#[must_use]
+pub fn reach(records: [&RunRecord; 2]) -> f64 {
+    let size = |x: [f64; 3]| x.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let scenes = records.into_iter().filter_map(|record| record.scene.as_ref()?.space());
+    let bodies = scenes.flat_map(|scene| &scene.bodies);
+    bodies.map(|body| size(body.centre) + 0.5 * size(body.shape.extent())).fold(0.0, f64::max)
+}
+
 /// The scale of what a column of ledgers measures; none of columns that only tell of the numerics.
-fn scale(name: &str, ledgers: [&Ledger; 2]) -> Option<f64> {
+fn scale(name: &str, ledgers: [&Ledger; 2], reach: f64) -> Option<f64> {
     let largest = |name: &str| {
         let all = ledgers.into_iter().flat_map(|ledger| ledger.column(name));
         all.filter(|x| x.is_finite()).fold(0.0, |most: f64, x| most.max(x.abs()))
@@ -119,15 +128,14 @@ fn scale(name: &str, ledgers: [&Ledger; 2]) -> Option<f64> {
     if ENERGIES.contains(&kind) {
         return Some(largest("total.kinetic").max(largest("total.internal")));
     }
-    if kind.starts_with("momentum_") && kind != "momentum_drift" || kind.starts_with("wall_impulse")
-    {
-        // No sum of m |v| is larger.
-        return Some((2.0 * largest("total.mass") * largest("total.kinetic")).sqrt());
+    // No sum of m |v| is larger.
+    let momentum = || (2.0 * largest("total.mass") * largest("total.kinetic")).sqrt();
+    let of = |start: &str| kind.starts_with(start) && !kind.ends_with("drift");
+    if of("momentum_") || of("wall_impulse") {
+        return Some(momentum());
     }
-    if kind.starts_with("angular_") && kind != "angular_drift" || kind.starts_with("wall_moment") {
-        let all = ledgers.into_iter().flat_map(Ledger::names);
-        let same = all.filter(|n| n.contains(".angular_") || n.starts_with("wall_moment"));
-        return Some(same.map(|name| largest(name)).fold(0.0, f64::max));
+    if of("angular_") || of("wall_moment") {
+        return Some(momentum() * reach);
     }
     match kind {
         "mass" => Some(largest("total.mass")),
@@ -137,9 +145,9 @@ fn scale(name: &str, ledgers: [&Ledger; 2]) -> Option<f64> {
 }
 
 /// The greatest difference of every column over the times of both ledgers that both have come to, straight
-/// between rows; the largest first.
+/// between rows; the largest first. `reach` is the lever of angular momenta, see [`reach`].
 #[must_use]
-pub fn histories(ledgers: [&Ledger; 2]) -> Vec<Difference> {
+pub fn histories(ledgers: [&Ledger; 2], reach: f64) -> Vec<Difference> {
     let end = ledgers.map(|ledger| ledger.last("time")).into_iter().fold(f64::INFINITY, f64::min);
     let mut times: Vec<f64> = ledgers
         .iter()
@@ -152,7 +160,7 @@ pub fn histories(ledgers: [&Ledger; 2]) -> Vec<Difference> {
     let names: BTreeSet<&String> = ledgers.iter().flat_map(|ledger| ledger.names()).collect();
     let mut all = Vec::new();
     for name in names {
-        let Some(scale) = scale(name, ledgers) else { continue };
+        let Some(scale) = scale(name, ledgers, reach) else { continue };
         let at = |time: &f64| {
             let values = ledgers.map(|ledger| ledger.at(name, *time));
             Difference { time: Some(*time), ..Difference::new(name, values, scale) }
@@ -163,22 +171,26 @@ pub fn histories(ledgers: [&Ledger; 2]) -> Vec<Difference> {
     all
 }
 
-/// Energies and the momentum of both runs over time.
+/// Energies of both runs over time, and the largest component of the first body's momentum.
 #[must_use]
 pub fn figure(ledgers: [&Ledger; 2], names: [&str; 2], units: [&str; 3]) -> Figure {
     let label = |what: &str, unit: &str| {
         if unit.is_empty() { what.to_owned() } else { format!("{what} / {unit}") }
     };
     let [time, energy, momentum] = units;
-    let along = ["x", "y", "z"].map(|axis| format!("total.momentum_{axis}"));
+    // That of all changes by walls alone.
+    let bodies = ledgers[0].names().iter().filter_map(|name| name.strip_suffix(".kinetic"));
+    let first = { bodies }.find(|name| *name != "total").unwrap_or("total");
+    let along = ["x", "y", "z"].map(|axis| format!("{first}.momentum_{axis}"));
     let most =
         |name: &String| ledgers[0].column(name).iter().fold(0.0, |most: f64, x| most.max(x.abs()));
     let main = along.iter().max_by(|a, b| most(a).total_cmp(&most(b))).map_or("", String::as_str);
+    let of_first = format!("momentum of {first} along {}", &main[main.len().saturating_sub(1)..]);
     let panels = [
         ("kinetic energy", "total.kinetic", energy),
         ("internal energy", "total.internal", energy),
         ("energy stored in shear", "total.shear", energy),
-        (main.trim_start_matches("total.").trim_end_matches(['x', 'y', 'z', '_']), main, momentum),
+        (&of_first, main, momentum),
     ];
     let panels = panels.map(|(title, column, unit)| {
         let axes = [label("time", time), label(title, unit)].map(Axis::linear);
@@ -204,9 +216,9 @@ mod tests {
         let a = Ledger::of(A).expect("a ledger");
         let noise = A.replace("3e-17", "-4e-17").replace("1.0,1,", "1.0,7,");
         let noise = Ledger::of(&noise).expect("a ledger");
-        assert!(histories([&a, &noise]).iter().all(|d| !d.matters()));
+        assert!(histories([&a, &noise], 1.0).iter().all(|d| !d.matters()));
         let other = Ledger::of(&A.replace("0.5,0.5", "0.4,0.6")).expect("a ledger");
-        let found = histories([&a, &other]);
+        let found = histories([&a, &other], 1.0);
         let moved: Vec<&str> =
             found.iter().filter(|d| d.matters()).map(|d| d.name.as_str()).collect();
         assert_eq!(moved.len(), 2, "{moved:?}");

@@ -7,7 +7,9 @@ use whipple_solver::units::{Dimension, Units};
 
 use super::show::{energy_unit, read, write_new};
 use super::{CompareArgs, Failure, print};
-use crate::after::compare::{Changed, Difference, EQUAL, figure, findings, histories, scenes};
+use crate::after::compare::{
+    Changed, Difference, EQUAL, figure, findings, histories, reach, scenes,
+};
 use crate::plots::{render_svg, svg_to_png};
 use crate::report::sig;
 use crate::scene::AnyScene;
@@ -41,12 +43,15 @@ pub(super) fn compare(args: &CompareArgs) -> Result<u8, Failure> {
         let message = "the two runs are in different units: their numbers cannot be compared";
         return Err(Failure::usage(message));
     }
+    let lever = reach([&a, &b]);
     let ledgers = first.as_ref().zip(second.as_ref());
     let differing = Summary {
         equal: false,
         scene: scenes([&a, &b]),
         findings: findings([&a, &b]),
-        histories: ledgers.map(|(a, b)| histories([a, b])).unwrap_or_default(),
+        histories: ledgers
+            .map(|(first, second)| histories([first, second], lever))
+            .unwrap_or_default(),
     };
     let moved = differing.findings.iter().chain(&differing.histories).any(Difference::matters);
     let equal = !moved

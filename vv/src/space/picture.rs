@@ -152,6 +152,21 @@ pub fn model(simulation: &Simulation, shown: Shown) -> Model {
     Model { points, spheres, hexahedra, ellipsoids }
 }
 
+/// Share of the particles whose values may lie beyond either end of a colour bar: single ones that fly
+/// squeezed or fast would make all else one colour.
+const BEYOND: f64 = 0.005;
+
+/// The values at the ends of a colour bar; none where nearly all are the same.
+fn range(simulation: &Simulation, shown: Shown) -> Option<(f64, f64)> {
+    let values = simulation.all_particles().map(|p| shown.of(&p));
+    let mut values: Vec<f64> = values.filter(|value| value.is_finite()).collect();
+    values.sort_unstable_by(f64::total_cmp);
+    let out = (values.len() as f64 * BEYOND) as usize;
+    let kept = values.get(out..values.len().saturating_sub(out))?;
+    let (low, high) = (*kept.first()?, *kept.last()?);
+    (low < high).then_some((low, high))
+}
+
 /// Turns the classes of a model from bodies into materials.
 fn by_material(model: &mut Model, scene: &Scene) {
     let own = |body: &whipple_solver::space::scene::Body| scene.material_index(&body.material);
@@ -183,13 +198,14 @@ pub fn shoot(
         Colouring::Field(Field { name, unit, range, map: ColourMap::Viridis })
     };
     let unit = |dimension: Dimension| scene.units.label(dimension);
+    let most = range(simulation, shot.shown);
     let colouring = match shot.shown {
         Shown::Material => {
             Colouring::Classes(scene.materials.iter().map(|m| m.name.clone()).collect())
         }
-        Shown::Velocity => field("speed", unit(Dimension::Velocity), None),
-        Shown::Pressure => field("pressure", unit(Dimension::Pressure), None),
-        Shown::Density => field("density", unit(Dimension::Density), None),
+        Shown::Velocity => field("speed", unit(Dimension::Velocity), most),
+        Shown::Pressure => field("pressure", unit(Dimension::Pressure), most),
+        Shown::Density => field("density", unit(Dimension::Density), most),
         Shown::Damage => field("damage", "", Some((0.0, 1.0))),
         Shown::Body => Colouring::Classes(scene.bodies.iter().map(|b| b.name.clone()).collect()),
         Shown::Temperature(range) => Colouring::Field(Field {
