@@ -86,6 +86,9 @@ enum Command {
     /// Write a scene file to begin with, with comments
     #[command(after_help = "Example:\n  whipple new shield.toml")]
     New(NewArgs),
+    /// Print the JSON schema of scene files, by which editors complete and check keys
+    #[command(after_help = "Example:\n  whipple schema > scene.schema.json")]
+    Schema,
     /// The material library: its list, or a material with its sources and Hugoniot
     #[command(after_help = material::EXAMPLES)]
     Material(MaterialArgs),
@@ -619,6 +622,7 @@ pub fn main() -> u8 {
         Command::Run(args) => run::run(&args),
         Command::Check(args) => check::check(&args),
         Command::New(args) => check::new(&args),
+        Command::Schema => check::schema(),
         Command::Material(args) => material::material(&args),
         Command::Sweep(args) => sweep::sweep(&args),
         Command::Limit(args) => sweep::limit(&args),

@@ -1,4 +1,5 @@
-//! `whipple check`: what a scene file makes, without running it; `whipple new`: a scene file to begin with.
+//! `whipple check`: what a scene file makes, without running it; `whipple new`: a scene file to begin with; `whipple schema`:
+//! what a scene file may hold, for editors.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -23,6 +24,12 @@ const TEMPLATE: &str = include_str!("template.toml");
 
 /// Names of the axes.
 const AXES: [&str; 3] = ["x", "y", "z"];
+
+/// Prints the schema of scene files.
+pub(super) fn schema() -> Result<u8, Failure> {
+    print(&crate::scenes::schema::text())?;
+    Ok(0)
+}
 
 /// Says what a scene is.
 pub(super) fn check(args: &CheckArgs) -> Result<u8, Failure> {

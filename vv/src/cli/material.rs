@@ -2,7 +2,6 @@
 
 use std::fmt::Write as _;
 
-use toml::Spanned;
 use whipple_solver::space::scene::{EosData, Flow};
 use whipple_solver::units::Units;
 
@@ -13,6 +12,7 @@ use crate::plots::{Axis, Figure, Panel, Series};
 use crate::report::sig;
 use crate::scenes::file::{Material, Status};
 use crate::scenes::material::{data, library, reading, sources};
+use crate::scenes::schema::Spanned;
 use crate::suggest::did_you_mean;
 
 /// Particle velocities of the Hugoniot that is shown, in km/s.

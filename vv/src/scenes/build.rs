@@ -3,7 +3,6 @@
 use std::ops::Range as Span;
 use std::path::{Path, PathBuf};
 
-use toml::Spanned;
 use whipple_solver::space::lattice::cell_size;
 use whipple_solver::space::scene::{Body, Hold, Material as Data, Scene, Shape, Side, Turn, Wall};
 use whipple_solver::units::Units;
@@ -12,6 +11,7 @@ use super::error::FileError;
 use super::file::{self, Quantity, SceneFile};
 use super::material::{self, Range};
 use super::quantity::{self, Kind};
+use super::schema::Spanned;
 use super::stl;
 use crate::nesting::{DEEPEST, too_deep};
 use crate::suggest::did_you_mean;

@@ -1,8 +1,10 @@
 //! The form of a scene file, as it is written. Numbers with units are texts here; [`super::build`] reads them.
 
+use schemars::JsonSchema;
 use serde::Deserialize;
-use toml::Spanned;
 use whipple_solver::units::Units;
+
+use super::schema::{self, Spanned};
 
 /// A number with its unit, as text; a bare number stands for itself.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -34,13 +36,15 @@ impl<'de> Deserialize<'de> for Text {
 }
 
 /// A scene.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(title = "Whipple scene file")]
 pub struct SceneFile {
     /// What it is, in a sentence or two.
     pub about: Option<String>,
     /// The unit system of the run: what bare numbers of `--set` and of CSV files are in.
     #[serde(default = "usual")]
+    #[schemars(schema_with = "schema::units")]
     pub units: Units,
     /// When the run ends.
     pub stop: Quantity,
@@ -76,8 +80,9 @@ fn usual() -> Units {
 }
 
 /// How fine the bodies are: one of these.
-#[derive(Debug, Clone, Default, Deserialize)]
+#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(extend("minProperties" = 1, "maxProperties" = 1))]
 pub struct Resolution {
     /// Edge of the cells.
     pub cell: Option<Quantity>,
@@ -88,16 +93,17 @@ pub struct Resolution {
 }
 
 /// Numerical choices.
-#[derive(Debug, Clone, Default, Deserialize)]
+#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Choices {
     /// Of the method, what `--set` can change.
     #[serde(default)]
+    #[schemars(with = "serde_json::Map<String, serde_json::Value>")]
     pub set: toml::Table,
 }
 
 /// What ends a run before its time.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Until {
     /// Some mass of a body is beyond a plane across an axis: a part of its mass, in the sense of its flight.
@@ -109,7 +115,7 @@ pub enum Until {
 }
 
 /// Mass of a body beyond a plane.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Beyond {
     /// Body.
@@ -123,7 +129,7 @@ pub struct Beyond {
 }
 
 /// A body that comes to rest.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Slower {
     /// Body.
@@ -133,7 +139,7 @@ pub struct Slower {
 }
 
 /// A coordinate axis.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Axis {
     /// First.
@@ -153,8 +159,9 @@ impl Axis {
 }
 
 /// A body: one shape, and what it is made of.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(transform = schema::one_shape)]
 pub struct Body {
     /// Name, in results.
     pub name: Spanned<String>,
@@ -190,7 +197,7 @@ pub struct Body {
 }
 
 /// A sphere.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Sphere {
     /// Diameter.
@@ -198,7 +205,7 @@ pub struct Sphere {
 }
 
 /// A box.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Block {
     /// Edges along x, y, z before it is turned.
@@ -206,7 +213,7 @@ pub struct Block {
 }
 
 /// A cylinder.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Cylinder {
     /// Diameter.
@@ -216,7 +223,7 @@ pub struct Cylinder {
 }
 
 /// A ring.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Ring {
     /// Outer diameter.
@@ -228,7 +235,7 @@ pub struct Ring {
 }
 
 /// A cone.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Cone {
     /// Diameter at its lower end.
@@ -240,7 +247,7 @@ pub struct Cone {
 }
 
 /// A surface from a file.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Stl {
     /// File, from the folder of the scene file on.
@@ -250,7 +257,7 @@ pub struct Stl {
 }
 
 /// A turn about an axis through the centre.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Turn {
     /// Axis, of any length.
@@ -260,7 +267,7 @@ pub struct Turn {
 }
 
 /// Plates one behind the other.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Stack {
     /// Name, which layers number.
@@ -276,7 +283,7 @@ pub struct Stack {
 }
 
 /// A layer.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Layer {
     /// Its material.
@@ -290,7 +297,7 @@ pub struct Layer {
 }
 
 /// A plane, rigid wall without friction.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Wall {
     /// Axis across it.
@@ -304,7 +311,7 @@ pub struct Wall {
 }
 
 /// A side of a plane.
-#[derive(Debug, Clone, Copy, Deserialize)]
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Side {
     /// At larger coordinates.
@@ -314,7 +321,7 @@ pub enum Side {
 }
 
 /// What a wall is.
-#[derive(Debug, Clone, Copy, Deserialize)]
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum WallKind {
     /// A plane of symmetry: what starts on it stays.
@@ -324,7 +331,7 @@ pub enum WallKind {
 }
 
 /// What is looked at, over time.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Probe {
     /// Name, in results.
@@ -338,7 +345,7 @@ pub struct Probe {
 }
 
 /// A plane across an axis.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Plane {
     /// Axis across it.
@@ -348,7 +355,7 @@ pub struct Plane {
 }
 
 /// What a run leaves.
-#[derive(Debug, Clone, Default, Deserialize)]
+#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Output {
     /// Time between two entries of the histories; a two-hundredth of the run without.
@@ -362,7 +369,7 @@ pub struct Output {
 }
 
 /// What colours a picture.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Colour {
     /// The body.
@@ -374,7 +381,7 @@ pub enum Colour {
 }
 
 /// A material.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Material {
     /// Name.
@@ -396,7 +403,7 @@ pub struct Material {
 }
 
 /// Whether a source was read.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Status {
     /// Read in the source that is named.
@@ -409,7 +416,7 @@ pub enum Status {
 }
 
 /// Equation of state of a solid, `U_s = c0 + s u_p`.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Solid {
     /// Bulk sound speed.
@@ -434,7 +441,7 @@ pub struct Solid {
 }
 
 /// Equation of state of a gas.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Gas {
     /// Ratio of specific heats.
@@ -449,7 +456,7 @@ pub struct Gas {
 }
 
 /// Resistance to shear.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Strength {
     /// Shear modulus.
@@ -470,7 +477,7 @@ pub struct Strength {
 }
 
 /// The paper's law of the yield stress.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Hardening {
     /// Yield stress at rest.
@@ -488,7 +495,7 @@ pub struct Hardening {
 }
 
 /// Johnson and Cook's law of the yield stress.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct JohnsonCook {
     /// Yield stress.
@@ -510,7 +517,7 @@ pub struct JohnsonCook {
 }
 
 /// What makes a material fail; it does not without.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Failure {
     /// Effective plastic strain.

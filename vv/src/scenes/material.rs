@@ -4,7 +4,6 @@ use std::path::Path;
 use std::sync::LazyLock;
 
 use serde::Deserialize;
-use toml::Spanned;
 use whipple_solver::space::scene::{EosData, Failure, Flow, GammaLaw, Material as Data, Strength};
 use whipple_solver::units::Units;
 
@@ -12,6 +11,7 @@ use super::build::Reading;
 use super::error::FileError;
 use super::file::{self, Material, Status};
 use super::quantity::Kind;
+use super::schema::Spanned;
 
 /// The library, as it is written.
 const LIBRARY: &str = include_str!("../../../references/library.toml");

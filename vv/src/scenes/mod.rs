@@ -12,5 +12,6 @@ pub mod foresight;
 pub mod material;
 pub mod probes;
 pub mod quantity;
+pub mod schema;
 mod stl;
 pub mod vary;

@@ -1,6 +1,5 @@
 //! What is looked at while a scene of a file runs: bodies, probes, the ranges of material constants, and what ends it.
 
-use toml::Spanned;
 use whipple_solver::space::Simulation;
 use whipple_solver::space::ledger::{Balance, Holdings};
 use whipple_solver::space::output::Particle;
@@ -9,6 +8,7 @@ use super::build::{Built, Reading};
 use super::error::FileError;
 use super::file::{Probe, Quantity, Until};
 use super::quantity::Kind;
+use super::schema::Spanned;
 use crate::suggest::did_you_mean;
 
 /// Where something is looked at.
