@@ -73,10 +73,10 @@ pub trait Lanes:
     /// The whole numbers from `at` on.
     #[inline(always)]
     #[must_use]
-    fn whole(from: &[u8], at: usize) -> Self {
+    fn whole<T: Copy + Into<f64>>(from: &[T], at: usize) -> Self {
         let mut out = [0.0; LANES];
         for (out, &n) in out.iter_mut().zip(&from[at..at + LANES]) {
-            *out = f64::from(n);
+            *out = n.into();
         }
         Self::of(F8(out))
     }

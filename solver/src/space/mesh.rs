@@ -24,6 +24,9 @@ const CHUNK_GROUPS: usize = 40;
 /// own, so that chunks of one colour have no eight in common.
 const CHUNK_PLANES: usize = 2;
 
+/// Levels of the damage that particles feel.
+const LEVELS: u16 = u8::MAX as u16;
+
 /// What all particles and elements of a body share.
 #[derive(Debug, Clone)]
 pub struct Body {
@@ -95,8 +98,10 @@ pub struct Group {
     pub failed: u8,
     /// Live elements that cease to be a volume at the end of the step.
     pub dying: u8,
-    /// Elements that have begun to fail in the step.
-    pub failing: u8,
+    /// Elements whose damage has grown since their particles were told.
+    pub tearing: u8,
+    /// Levels of damage that their particles know of.
+    told: [u8; LANES],
     /// Whether anything has moved here yet.
     pub awake: bool,
     /// Plastic strain `E^p`: 11, 22, 33, 12, 13, 23.
@@ -178,9 +183,9 @@ pub struct Mesh {
     pub masses: Vec<f64>,
     /// Reference volume over the reference volume of live elements; zero without live elements.
     pub ratio: Vec<f64>,
-    /// Of the share of a particle what its elements have lost that have failed; all of it if particles feel cold tension as
-    /// well.
-    torn: Vec<u8>,
+    /// Of the share of a particle what its elements have lost to damage, in levels; all of it if particles feel cold tension
+    /// as well.
+    torn: Vec<u16>,
     /// `V_o^(2/3)` by share, body by body.
     pub areas: Vec<[f64; 9]>,
     piece_at: Vec<u32>,
@@ -233,7 +238,9 @@ impl Mesh {
             }
         }
         if scene.method.expansion == Expansion::Whole {
-            mesh.torn.copy_from_slice(&mesh.share);
+            for (torn, &share) in mesh.torn.iter_mut().zip(&mesh.share) {
+                *torn = u16::from(share) * LEVELS;
+            }
         }
         groups.shrink_to_fit();
         mesh.cut(&nodes);
@@ -351,20 +358,25 @@ impl Mesh {
         }
     }
 
-    /// Takes failed elements out of what holds their particles in tension.
-    pub fn tear(&mut self, group: &Group, failed: u8) {
-        for lane in (0..u32::from(group.lanes)).filter(|lane| failed >> lane & 1 == 1) {
+    /// Takes as much of elements as their damage has grown by out of what holds their particles in tension. Damage counts in
+    /// whole levels, whose sums are the same in any order: after a restart too.
+    pub fn tear(&mut self, group: &mut Group) {
+        for lane in (0..u32::from(group.lanes)).filter(|lane| group.tearing >> lane & 1 == 1) {
+            let (level, told) = (group.level(lane), group.told[lane as usize]);
             for i in group.particles(lane) {
                 let lost = if i >= self.first_centroid { CENTROID_SHARE } else { 1 };
-                self.torn[i] = (self.torn[i] + lost).min(self.share[i]);
+                let all = u16::from(self.share[i]) * LEVELS;
+                self.torn[i] = (self.torn[i] + u16::from(lost) * u16::from(level - told)).min(all);
             }
+            group.told[lane as usize] = level;
         }
+        group.tearing = 0;
     }
 
-    /// Part of the elements of the particles from `first` on that has failed.
+    /// Damage of the elements of the particles from `first` on, their mean.
     #[inline(always)]
     pub fn loose<F: Lanes>(&self, first: usize) -> F {
-        F::whole(&self.torn, first) / F::whole(&self.share, first)
+        F::whole(&self.torn, first) * (1.0 / f64::from(LEVELS)) / F::whole(&self.share, first)
     }
 
     /// Bytes that it takes.
@@ -374,7 +386,7 @@ impl Mesh {
         let mapped: usize = self.bodies.iter().map(|body| body.mapped.bytes()).sum();
         let pieces = 4 * self.piece_at.capacity();
         let own = 8 * (self.ratio.capacity() + self.masses.capacity());
-        own + self.share.capacity() + self.torn.capacity() + pieces + lattices + mapped
+        own + self.share.capacity() + 2 * self.torn.capacity() + pieces + lattices + mapped
     }
 
     /// Mass of a particle.
@@ -653,7 +665,8 @@ impl Group {
             live: if lanes == LANES { u8::MAX } else { (1 << lanes) - 1 },
             failed: 0,
             dying: 0,
-            failing: 0,
+            tearing: 0,
+            told: [0; LANES],
             awake: false,
             plastic: [F8::ZERO; 6],
             stress: [F8::ZERO; 6],
@@ -728,6 +741,11 @@ impl Group {
     pub fn dying_lanes(&self) -> impl Iterator<Item = u32> + use<> {
         let Self { lanes, dying, .. } = *self;
         (0..u32::from(lanes)).filter(move |lane| dying >> lane & 1 == 1)
+    }
+
+    /// Damage of a lane in whole levels.
+    fn level(&self, lane: u32) -> u8 {
+        (self.damage.0[lane as usize] * f64::from(LEVELS)) as u8
     }
 
     /// The nine particles of a lane, slot by slot.

@@ -302,8 +302,9 @@ impl Simulation {
         flag(|group, value| group.live = value);
         flag(|group, value| group.failed = value);
         flag(|group, value| group.awake = value != 0);
-        for group in &self.groups {
-            self.mesh.tear(group, group.failed);
+        for group in &mut self.groups {
+            group.tearing = group.failed;
+            self.mesh.tear(group);
         }
         self.mesh.ratio.copy_from_slice(from.f64s());
         for group in &mut self.groups {

@@ -500,14 +500,13 @@ impl Simulation {
         }
     }
 
-    /// Gives the particles of elements that began to fail in the step their own tension back.
+    /// Gives the particles of elements whose damage grew in the step as much of their own tension back.
     fn tear(&mut self) {
-        if !self.demand.failing {
+        if !self.demand.tearing {
             return;
         }
-        for group in self.groups.iter_mut().filter(|group| group.failing != 0) {
-            self.mesh.tear(group, group.failing);
-            group.failing = 0;
+        for group in self.groups.iter_mut().filter(|group| group.tearing != 0) {
+            self.mesh.tear(group);
         }
     }
 

@@ -18,8 +18,12 @@ const QUIET: f64 = 1e-9;
 
 /// Speed over that of sound `c` at which heat that alternates between corners and centroids flows between them. Through bonds
 /// of 3/4 of a face between masses of half a cell a difference goes at 24 times this over the time `h / c` of a cell, of which
-/// a step is less than a third: by a sixth in a step, so that nothing overshoots.
+/// a step is less than a third: by a sixth in a step.
 const LEVELLING: f64 = 0.02;
+
+/// Part of a difference that is levelled in a step at most, so that nothing overshoots where material is denser or the
+/// step is longer: each end of a bond has half of the mass of a cell, and eight bonds.
+const LEVELLED: f64 = 1.0 / 6.0;
 
 /// Forces and heat of nine particles.
 pub(super) struct Loads<F> {
@@ -205,6 +209,8 @@ impl Group {
             .bond_area_as(0, |area| method.heat_coeff * area * body.eos.c_v() * laws.dt / area);
         let conducts = method.heat_coeff * laws.dt > 0.0;
         let alternating = if conducts { seen.alternating() } else { zero };
+        let most: F =
+            cells.volume_as(|volume| LEVELLED * body.rho_0 * volume * body.eos.c_v() / 32.0);
         let rho: [F; 9] = self.gather(read.rho);
         let mut damping = Damping::none();
         for slot in 0..8 {
@@ -250,8 +256,9 @@ impl Group {
             skew.pull(slot, &r, bond);
             if conducts {
                 let difference = seen.theta[slot] - seen.theta[CENTRE];
-                let levelling = (sound * alternating).keep(self.live);
-                loads.conduct(slot, mass * (speed.max(zero) + levelling) * (difference * conduct));
+                let levelling = (mass * sound * alternating * conduct).min(most).keep(self.live);
+                let shock = mass * speed.max(zero) * conduct;
+                loads.conduct(slot, (shock + levelling) * difference);
             }
         }
         if let Some(along) = skew.pulled() {

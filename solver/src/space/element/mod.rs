@@ -94,15 +94,15 @@ pub struct Demand {
     pub rate: f64,
     /// Whether an element is to die after the step.
     pub dying: bool,
-    /// Whether an element has begun to fail.
-    pub failing: bool,
+    /// Whether the damage of an element has grown.
+    pub tearing: bool,
     /// Heat of plastic flow and damage, Eq. (61).
     pub heat: f64,
 }
 
 impl Demand {
     /// Of nothing.
-    pub const NONE: Self = Self { rate: 0.0, dying: false, failing: false, heat: 0.0 };
+    pub const NONE: Self = Self { rate: 0.0, dying: false, tearing: false, heat: 0.0 };
 
     /// The stricter.
     #[must_use]
@@ -110,7 +110,7 @@ impl Demand {
         Self {
             rate: self.rate.max(other.rate),
             dying: self.dying || other.dying,
-            failing: self.failing || other.failing,
+            tearing: self.tearing || other.tearing,
             heat: self.heat + other.heat,
         }
     }
@@ -242,7 +242,7 @@ impl Group {
             (stiffness, damping) = (stiffness.times(heavier), damping.times(heavier));
         }
         let rate = symmetric::rate((&stiffness, &damping), (live, so_far));
-        Demand { rate, dying: self.dying != 0, failing: self.failing != 0, heat: freed.sum() }
+        Demand { rate, dying: self.dying != 0, tearing: self.tearing != 0, heat: freed.sum() }
     }
 
     /// Second pass: volumes and, all over the mean velocity of the step, their rates, which take the place

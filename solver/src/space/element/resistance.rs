@@ -33,7 +33,6 @@ impl Group {
         let cold = (F::splat(1.0) - F::of(self.damage)) * solid.bulk * widest;
         let pulled = (cold - solid.thermal(theta)).gt(F::splat(solid.spall));
         let failing = solid.spent(F::of(self.strain), theta) | crushed | pulled;
-        let before = self.failed;
         self.failed |= failing & self.live;
         let stretched = motion.stretch_squared().gt(F::splat(solid.torn * solid.torn));
         let open = motion.jacobian.gt(F::splat(OPEN)) & self.failed;
@@ -45,7 +44,6 @@ impl Group {
         let flat = (extent.volume * extent.volume).lt(extent.largest * least);
         self.dying = (crushed | stretched | open | flat) & self.live;
         self.failed |= self.dying;
-        self.failing = self.failed & !before;
     }
 
     /// Damage of failed lanes, Eqs. (47), (49)-(50), and the energy that it sets free, (31) times the step
@@ -67,6 +65,7 @@ impl Group {
         let after = F::select(self.failed & self.live, (before + step).min(one), before);
         let stored = self.shear_energy::<F, MAPPED>(cells) + tension_energy(cells, opening) + held;
         let released = stored * (after - before);
+        self.tearing |= after.gt(before);
         let left = (one - after) / (one - before).max(F::splat(1e-300));
         for stress in &mut self.stress {
             *stress = (F::of(*stress) * left).pack();

@@ -1,5 +1,6 @@
 //! Elements that fail, the energy that they free, and what is left of them.
 
+use whipple_solver::space::Simulation;
 use whipple_solver::space::method::{Expansion, Release};
 use whipple_solver::space::scene::{Body, Flow};
 
@@ -123,6 +124,34 @@ fn plastic_work_is_heat() {
         // At small plastic strain the effective stress is the stress itself.
         assert!(e.equivalent_stress < 0.005 * (1.0 + 3.0 * e.strain) + 1e-9, "{e:?}");
     }
+}
+
+/// Warm copper that is at rest, expanded by its heat, stays there when it fails: its particles take over the cold tension
+/// of their elements as fast as these lose it. Taken over at once, a hundredth of the bulk modulus would set off the surface.
+#[test]
+fn warm_material_that_fails_stays_at_rest() {
+    let bulk = 8.93 * 0.394 * 0.394;
+    let energy = 0.01 * bulk / (8.93 * 2.02);
+    let warm = Body { energy, ..block("copper", [6; 3], 0.1) };
+    let mut scene = scene(vec![strong(copper(), 0.477, None)], vec![warm]);
+    let mut simulation = start(&scene);
+    simulation.advance_to(40.0).unwrap();
+    let fastest = |simulation: &Simulation| {
+        let speeds = simulation.all_particles().map(|p| p.velocity.iter().map(|v| v * v).sum());
+        speeds.fold(0.0, f64::max).sqrt() / 0.394
+    };
+    let before = fastest(&simulation);
+    scene.materials[0].failure.melt = Some(301.0);
+    let mut failing = start(&scene);
+    failing.restore(&simulation.sections()).unwrap();
+    let mut most = 0.0_f64;
+    for _ in 0..20 {
+        march(&mut failing, 5);
+        most = most.max(fastest(&failing));
+    }
+    println!("fastest {before:.2e} of the speed of sound before, {most:.2e} after");
+    assert!(failing.failed().0 == 216 && before < 1e-4, "{:?} {before}", failing.failed());
+    assert!(most < 1e-3, "{most}");
 }
 
 /// A block of warm copper comes to rest where its equation of state has no pressure (decision 0025); with `whole` at half

@@ -107,8 +107,8 @@ pub struct Particle {
     /// Elements round it, and those of them that are live; a centroid counts its own as eight.
     pub round: usize,
     pub live: usize,
-    /// Those that have not failed.
-    sound_elements: usize,
+    /// Damage of the elements round it, in 255 levels, summed.
+    lost: u16,
     pub rho: f64,
     pub u: f64,
     rho_rate: f64,
@@ -418,7 +418,6 @@ impl Plain {
         }
         for p in self.particles.iter_mut().filter(|p| p.body == k) {
             p.live = p.round;
-            p.sound_elements = p.round;
             p.mass = material.density * volume * p.round as f64 / 16.0;
             p.exposed = p.round < 8;
             p.v = cross(data.spin, sub(p.start, data.centre));
@@ -564,18 +563,11 @@ impl Plain {
         let heat =
             (theta - solid.theta_0).max(0.0) * solid.gamma * solid.material.density * solid.c_v;
         let pulled = method.spall && failure.spall.is_some_and(|limit| pull - heat > limit);
-        let whole = !element.failed;
         element.failed |= spent || crushed || pulled;
         let thinnest = if element.failed { 0.35 } else { 0.2 };
         let flat = volume < widest_face * thinnest * solid.edge;
         element.dying = crushed || flat || stretch > 16.0 || element.failed && jacobian > 1.2;
         element.failed |= element.dying;
-        if whole && element.failed {
-            for (slot, &i) in slots.iter().enumerate() {
-                self.particles[i].sound_elements -= if slot == 8 { 8 } else { 1 };
-            }
-        }
-        let element = &mut self.elements[e];
 
         let mut freed = 0.0;
         if element.failed {
@@ -585,6 +577,10 @@ impl Plain {
             };
             let before = element.damage;
             element.damage = if element.dying { 1.0 } else { (before + step).min(1.0) };
+            let lost = (255.0 * element.damage) as u16 - (255.0 * before) as u16;
+            for (slot, &i) in slots.iter().enumerate() {
+                self.particles[i].lost += if slot == 8 { 8 * lost } else { lost };
+            }
             let whole = 1.0 - before;
             let elastic = if whole > 0.0 && solid.mu > 0.0 {
                 scaled(&element.stress, 0.5 / (whole * solid.mu))
@@ -704,9 +700,10 @@ impl Plain {
             all = plus(&all, 1.0, &outer(along));
             forces[slot] = add(forces[slot], times(along, nu * jump));
             forces[8] = sub(forces[8], times(along, nu * jump));
-            let speed = jump.max(0.0) + 0.02 * sound * alternating;
-            let flux = method.heat_coeff * solid.c_v * rho * area * speed;
-            let flux = flux * (n.theta - x.theta) * self.dt;
+            let conducts = |speed| method.heat_coeff * rho * area * speed * self.dt;
+            let most = solid.material.density * solid.volume / 192.0;
+            let flux = conducts(jump.max(0.0)) + conducts(0.02 * sound * alternating).min(most);
+            let flux = flux * solid.c_v * (n.theta - x.theta);
             heat[slot] -= flux;
             heat[8] += flux;
             nu * jump / norm(apart)
@@ -1317,9 +1314,9 @@ impl Plain {
 
             let change = (0.5 * dt * p.rho_rate / p.rho).min(0.5);
             p.rho_now = (p.rho / (1.0 - change)).clamp(0.3 * rho_0, 10.0 * rho_0);
-            let failed = 1.0 - p.sound_elements as f64 / p.round as f64;
+            let damage = f64::from(p.lost) / (255 * p.round) as f64;
             (p.pressure, p.sound, p.theta) =
-                eos(solid, p.rho_now, p.u + 0.5 * dt * p.u_rate, failed);
+                eos(solid, p.rho_now, p.u + 0.5 * dt * p.u_rate, damage);
             let reference = p.mass / rho_0;
             p.dilate = if p.live > 0 {
                 let part = p.live as f64 / p.round as f64;
@@ -1412,7 +1409,7 @@ fn corners_of(centre: [i32; 3]) -> [[i32; 3]; 8] {
 }
 
 /// Pressure, sound speed and temperature.
-fn eos(solid: &Solid, rho: f64, u: f64, failed: f64) -> (f64, f64, f64) {
+fn eos(solid: &Solid, rho: f64, u: f64, damage: f64) -> (f64, f64, f64) {
     let rho_0 = solid.material.density;
     let eta = (1.0 - rho_0 / rho).max(0.0);
     let cap = 0.85 / solid.s;
@@ -1423,7 +1420,7 @@ fn eos(solid: &Solid, rho: f64, u: f64, failed: f64) -> (f64, f64, f64) {
         (shock * release, slope * release - 0.5 * solid.gamma * shock)
     };
     let (p_cold, slope) = if rho < rho_0 {
-        (solid.bulk * failed * (rho - rho_0) / rho_0, solid.bulk / rho_0)
+        (solid.bulk * damage * (rho - rho_0) / rho_0, solid.bulk / rho_0)
     } else if eta < cap {
         let (p, by_eta) = cold(eta);
         // Exactly nothing at the reference density.
