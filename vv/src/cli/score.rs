@@ -11,7 +11,7 @@ use super::numbers::{SIZES, whole};
 use super::show::write_new;
 use super::{Failure, print};
 use crate::cases::{ALL, Case, find};
-use crate::plots::{render_svg, svg_to_png, themed};
+use crate::plots::{Figure, THEME, render_svg, svg_to_png, themed};
 use crate::record::{RunKey, RunRecord, Scheme, files_in};
 use crate::report::sig;
 use crate::run::{Request, Silent, run};
@@ -266,7 +266,7 @@ fn recorded(case: &dyn Case, args: &ScoreArgs) -> Result<Vec<Recorded>, Failure>
             .norms
             .iter()
             .filter_map(|(name, value)| Some((name.strip_suffix("_l1")?.to_owned(), *value)));
-        let stale = if record.is_stale() { ", of an earlier version" } else { "" };
+        let stale = if record.provenance.is_stale() { ", of an earlier version" } else { "" };
         let run = format!("{}{stale}", record.key.scheme.label());
         out.push(Recorded { run, n: record.key.n, l1: l1.collect() });
     }
@@ -291,10 +291,10 @@ fn exact_line(
     Ok((x, fields))
 }
 
-fn draw(file: &Path, figure: &crate::plots::Figure) -> Result<Vec<PathBuf>, Failure> {
+fn draw(file: &Path, figure: &Figure) -> Result<Vec<PathBuf>, Failure> {
     let light = render_svg(figure).map_err(Failure::usage)?;
-    let dark = crate::plots::THEME.iter().fold(themed(&light), |svg, (name, _, dark)| {
-        svg.replace(&format!("var({name})"), &format!("#{dark:06x}"))
+    let dark = THEME.iter().fold(themed(&light), |svg, (name, light, dark)| {
+        svg.replace(&format!("var({name},#{light:06x})"), &format!("#{dark:06X}"))
     });
     let images = match file.extension().and_then(|end| end.to_str()) {
         Some("svg") => [light.into_bytes(), dark.into_bytes()],

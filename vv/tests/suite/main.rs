@@ -19,6 +19,7 @@ mod own_scenes;
 mod planar_impact;
 mod readme;
 mod report;
+mod score;
 mod solids;
 mod space_output;
 mod tables;
