@@ -333,8 +333,11 @@ fn csv(summary: &Summary) -> String {
 }
 
 fn said(summary: &Summary, args: &ScoreArgs) -> String {
-    let mut out =
-        format!("{} at t = {}, against the exact solution\n", summary.case, sig(summary.time, 4));
+    let mut out = format!(
+        "{} at t = {}, against the solution of the case\n",
+        summary.case,
+        sig(summary.time, 4)
+    );
     out += "errors over the range of the exact field, weighted by mass:\n";
     let _ =
         writeln!(out, "  {:<12} {:>6}  {:<10} {:<10} {:<10} of", "field", "n", "L1", "L2", "Linf");
