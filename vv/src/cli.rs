@@ -30,6 +30,7 @@ mod reports;
 mod results;
 mod resume;
 mod run;
+mod score;
 mod sensitivity;
 mod show;
 mod sizes;
@@ -108,6 +109,9 @@ enum Command {
     /// Compare two runs: scenes, findings, histories
     #[command(after_help = compare::EXAMPLES)]
     Compare(CompareArgs),
+    /// Judge results of any program on a case with an exact profile: norms, orders, figure, ours beside
+    #[command(after_help = score::EXAMPLES)]
+    Score(score::ScoreArgs),
     /// Run cases, judge their claims and write the report
     #[command(after_help = reports::VV_EXAMPLES)]
     Vv(VvArgs),
@@ -628,6 +632,7 @@ pub fn main() -> u8 {
         Command::Limit(args) => sweep::limit(&args),
         Command::Show(args) => show::show(&args),
         Command::Compare(args) => compare::compare(&args),
+        Command::Score(args) => score::score(&args),
         Command::Vv(args) => vv(&args),
         Command::Report(args) => reports::report(&args),
         Command::Bench(args) => bench::bench(&args),

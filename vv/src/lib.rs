@@ -28,6 +28,7 @@ pub mod report;
 pub mod run;
 pub mod scene;
 pub mod scenes;
+pub mod score;
 pub mod space;
 pub mod suggest;
 pub mod suite;

@@ -20,6 +20,7 @@ mod planar_impact;
 mod readme;
 mod report;
 mod schema;
+mod score;
 mod solids;
 mod space_output;
 mod tables;
