@@ -13,5 +13,5 @@ pub mod material;
 pub mod probes;
 pub mod quantity;
 pub mod schema;
-mod stl;
+pub mod stl;
 pub mod vary;

@@ -1,6 +1,7 @@
 //! Closed surfaces from STL files, and which cells of a lattice lie within.
 
 use std::collections::BTreeMap;
+use std::io::{Read, Seek};
 use std::path::Path;
 
 use whipple_solver::space::lattice::{cross, dot};
@@ -22,11 +23,19 @@ impl Surface {
     /// # Errors
     /// In words, what is wrong with it.
     pub fn read(path: &Path, unit: f64) -> Result<Self, String> {
-        let name = path.display();
+        let name = path.display().to_string();
         let mut file =
             std::fs::File::open(path).map_err(|error| format!("{name} cannot be read: {error}"))?;
-        let mesh = stl_io::read_stl(&mut file)
-            .map_err(|error| format!("{name} is no STL file: {error}"))?;
+        Self::parse(&name, &mut file, unit)
+    }
+
+    /// The same of anything that can be read.
+    ///
+    /// # Errors
+    /// In words, what is wrong with it.
+    pub fn parse(name: &str, source: &mut (impl Read + Seek), unit: f64) -> Result<Self, String> {
+        let mesh =
+            stl_io::read_stl(source).map_err(|error| format!("{name} is no STL file: {error}"))?;
         // Every edge is that of one other triangle, the other way round.
         let mut edges: BTreeMap<[usize; 2], i32> = BTreeMap::new();
         for face in &mesh.faces {

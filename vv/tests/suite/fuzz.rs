@@ -2,14 +2,21 @@
 
 #![allow(clippy::print_stdout)]
 
+use std::io::Cursor;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
 
 use whipple_solver::method::Preset;
+use whipple_solver::units::Units;
 use whipple_vv::checkpoint::Reader;
 use whipple_vv::overrides::apply;
 use whipple_vv::record::RunRecord;
 use whipple_vv::references::Table;
 use whipple_vv::scene::AnyScene;
+use whipple_vv::scenes::build::Built;
+use whipple_vv::scenes::probes::Probes;
+use whipple_vv::scenes::quantity::{self, Kind};
+use whipple_vv::scenes::stl::Surface;
 use whipple_vv::suite::scene_of;
 
 use crate::checkpoint::{SCENE, small};
@@ -88,6 +95,13 @@ const WORDS: &[&str] = &[
     "\t",
     "[[[[[[[[[[",
     "{a={a={a={a=",
+    "\"1e300 km\"",
+    "\"-3 mm\"",
+    "\"1 um\"",
+    "[[body]]",
+    "sphere",
+    "through",
+    "stop",
 ];
 
 /// A member of a corpus with a few damages.
@@ -231,5 +245,100 @@ fn checkpoints() {
             }
         }
         read(file).map_err(|error: whipple_vv::checkpoint::CheckpointError| error.to_string())
+    });
+}
+
+/// Scene files: read, and what they make is looked at as `check` does before it makes any cell.
+#[test]
+fn scene_files() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../references/scenes");
+    let mut corpus = vec![include_bytes!("../../src/cli/template.toml").to_vec()];
+    for entry in std::fs::read_dir(&folder).expect("the examples") {
+        let path = entry.expect("a file").path();
+        if path.extension().is_some_and(|e| e == "toml") {
+            corpus.push(std::fs::read(path).expect("a scene"));
+        }
+    }
+    corpus.sort();
+    let file = folder.join("fuzz.toml");
+    feed("scene file", &corpus, |input| {
+        let built = Built::of(&file, &text(input), None).map_err(|error| error.to_string())?;
+        built.scene.validate().map_err(|error| error.to_string())?;
+        Probes::new(&built).map(drop).map_err(|error| error.to_string())
+    });
+}
+
+/// Numbers with units.
+#[test]
+fn quantities() {
+    let all = [
+        "10 us",
+        "884 J/kg/K",
+        "0.47 cm",
+        "-3.5e2 m/s",
+        "5 lbf s^2/in^4",
+        "12 %",
+        "30 deg",
+        "27.6 GPa",
+    ];
+    let kinds = [
+        Kind::TIME,
+        Kind::LENGTH,
+        Kind::VELOCITY,
+        Kind::DENSITY,
+        Kind::PRESSURE,
+        Kind::SPECIFIC_HEAT,
+        Kind::ANGLE,
+        Kind::NUMBER,
+    ];
+    feed("quantity", &all.map(|q| q.as_bytes().to_vec()), |input| {
+        let text = text(input);
+        let read = kinds.map(|kind| quantity::read(&text, kind, Units::CmGUsMbar));
+        let plain = quantity::read(&text, Kind::TIME, Units::None);
+        let mut refused = read.into_iter().chain([plain]).filter_map(Result::err);
+        match refused.nth(kinds.len()) {
+            Some(message) => Err(message),
+            None => Ok(()),
+        }
+    });
+}
+
+/// Closed surfaces, as text and as bytes.
+#[test]
+fn surfaces() {
+    let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0_f32]];
+    let faces = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
+    let mut words = "solid corner\n".to_owned();
+    let mut bytes = vec![0; 80];
+    bytes.extend(4_u32.to_le_bytes());
+    for face in faces {
+        words += " facet normal 0 0 0\n outer loop\n";
+        bytes.extend([0; 12]);
+        for corner in face.map(|k: usize| corners[k]) {
+            let [x, y, z] = corner;
+            words += &format!("  vertex {x} {y} {z}\n");
+            corner.iter().for_each(|x| bytes.extend(x.to_le_bytes()));
+        }
+        words += " endloop\n endfacet\n";
+        bytes.extend([0; 2]);
+    }
+    words += "endsolid corner\n";
+    feed("surface", &[words.into_bytes(), bytes], |input| {
+        Surface::parse("fuzz.stl", &mut Cursor::new(input), 1.0).map(drop)
+    });
+}
+
+/// Tables of other programs.
+#[test]
+fn scored_tables() {
+    let corpus = [
+        b"x,rho,u\n0.1,1.0,0.0\n0.2,1,0.5\n0.3,0.5,1e-3\n".to_vec(),
+        b"# by a code\n# cell x_c[m] rho p\n 1 0.5 1.0 1e5\n 2 1.5 0.5D0 2e5\n".to_vec(),
+        b"\"x\";\"Density\"\n0;1\n1;0.5\n".to_vec(),
+    ];
+    feed("scored table", &corpus, |input| {
+        whipple_vv::score::table::Table::parse(Path::new("fuzz.csv"), text(input))
+            .map(drop)
+            .map_err(|error| error.to_string())
     });
 }
