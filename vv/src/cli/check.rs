@@ -14,9 +14,9 @@ use crate::cases::Case;
 use crate::files::{ensure_writable_dir, write_atomic};
 use crate::memory::{Keeps, Need, bytes_text};
 use crate::report::sig;
-use crate::scene::AnyScene;
 use crate::scenes::case::FileCase;
-use crate::scenes::foresight::{FEW, Pace, gaps, symmetric, through};
+use crate::scenes::forecast::{Basis, Forecast};
+use crate::scenes::foresight::{FEW, gaps, symmetric, through};
 use crate::words::counted;
 
 /// A scene to begin with.
@@ -59,7 +59,7 @@ pub(super) fn check(args: &CheckArgs) -> Result<u8, Failure> {
     }
     let memory = Need::of(&any, Keeps::default());
     let _ = writeln!(out, "memory: {}", bytes_text(memory.bytes));
-    pace(&mut out, scene, simulation, &any)?;
+    pace(&mut out, (&case, n), scene, &simulation);
     print(&out)?;
     Ok(0)
 }
@@ -147,30 +147,32 @@ fn advice(out: &mut String, scene: &Scene, simulation: &Simulation) {
     }
 }
 
-fn pace(
-    out: &mut String,
-    scene: &Scene,
-    simulation: Simulation,
-    any: &AnyScene,
-) -> Result<(), Failure> {
+fn pace(out: &mut String, (case, n): (&FileCase, usize), scene: &Scene, start: &Simulation) {
     let unit = scene.units.label(Dimension::Time);
-    match Pace::of(simulation, any.stop_time()) {
-        Ok(pace) => {
+    let stop = scene.stop_time;
+    match Forecast::of(case, n, start, stop) {
+        Ok(Forecast { pace, seconds, basis }) => {
+            let by = match basis {
+                Basis::Itself => "it was run for this".to_owned(),
+                Basis::Copy(m, share) => format!(
+                    "a copy with {m} through the thinnest part took {} times what its first steps told, and so will this",
+                    sig(share, 2)
+                ),
+                Basis::FirstSteps => "as far as its first steps tell".to_owned(),
+            };
             let _ = writeln!(
                 out,
-                "first step {} {unit}; about {} steps of {} {unit}, {} on one thread of this machine, as far as its first steps \
-                 tell",
+                "first step {} {unit}; about {} steps of {} {unit}, {} on one thread of this machine: {by}",
                 sig(pace.first, 3),
-                sig(scene.stop_time / pace.step, 2),
+                sig(stop / pace.step, 2),
                 sig(pace.step, 3),
-                clock(pace.whole(scene.stop_time))
+                clock(seconds)
             );
         }
         Err(error) => {
             let _ = writeln!(out, "its first steps fail: {error}");
         }
     }
-    Ok(())
 }
 
 /// Seconds in words.

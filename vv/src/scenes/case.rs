@@ -2,7 +2,9 @@
 
 use std::path::Path;
 use std::str::FromStr;
+use std::time::{Duration, Instant};
 
+use whipple_solver::error::StepError;
 use whipple_solver::method::Preset;
 use whipple_solver::space::{Scene, Simulation};
 use whipple_solver::units::{Dimension, Units};
@@ -116,6 +118,34 @@ impl FileCase {
             probes,
             built,
         })
+    }
+
+    /// Runs a state to the end of the scene, with a look at its probes as often as a run has one; whether it came there within
+    /// this time on the clock.
+    ///
+    /// # Errors
+    /// A numerical failure.
+    pub fn follow(
+        &self,
+        mut simulation: Simulation,
+        stop: f64,
+        patience: Duration,
+    ) -> Result<bool, StepError> {
+        let start = Instant::now();
+        let found = self.probes.find(&simulation);
+        for time in self.times(stop) {
+            while simulation.time() < time {
+                if start.elapsed() > patience {
+                    return Ok(false);
+                }
+                simulation.step(time)?;
+            }
+            let row = self.probes.row(&found, (&simulation, &simulation.balance()));
+            if row.last() == Some(&1.0) {
+                break;
+            }
+        }
+        Ok(true)
     }
 
     /// What was read.

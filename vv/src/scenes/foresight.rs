@@ -1,62 +1,10 @@
-//! What a scene will be, before it runs: its particles and masses, its first steps on this machine, what could halve it.
+//! What a scene will be, before it runs: gaps between its bodies, what is too coarse, what could halve it.
 
-use std::time::{Duration, Instant};
-
-use whipple_solver::error::StepError;
 use whipple_solver::space::Simulation;
 use whipple_solver::space::scene::{Body, Scene, Shape};
 
-/// Longest time that a calibration takes.
-const CALIBRATION: Duration = Duration::from_millis(1500);
-
-/// Most steps of it, and those of its start that are not counted: the first are shorter.
-const STEPS: [u64; 2] = [400, 5];
-
 /// Cells through a part below which what happens in it is not resolved: a bending plate has four.
 pub const FEW: usize = 3;
-
-/// Time that steps take here, and how long they are.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Pace {
-    /// Length of the first step.
-    pub first: f64,
-    /// Mean length of those that were tried.
-    pub step: f64,
-    /// Seconds on the clock for one of them.
-    pub seconds: f64,
-}
-
-impl Pace {
-    /// Tries steps, with nothing asleep.
-    ///
-    /// # Errors
-    /// A numerical failure.
-    pub fn of(mut simulation: Simulation, stop: f64) -> Result<Self, StepError> {
-        simulation.keep_awake();
-        simulation.step(stop)?;
-        let first = simulation.last_step();
-        let [most, left_out] = STEPS;
-        for _ in 1..left_out {
-            simulation.step(stop)?;
-        }
-        let (from, start) = (simulation.time(), Instant::now());
-        let mut steps = 0u64;
-        while steps < most && start.elapsed() < CALIBRATION && simulation.time() < stop {
-            simulation.step(stop)?;
-            steps += 1;
-        }
-        let steps = steps.max(1) as f64;
-        let seconds = start.elapsed().as_secs_f64() / steps;
-        let step = ((simulation.time() - from) / steps).max(f64::MIN_POSITIVE);
-        Ok(Self { first, step, seconds })
-    }
-
-    /// Seconds that a run to this time takes, if its steps stay as they are.
-    #[must_use]
-    pub fn whole(&self, stop: f64) -> f64 {
-        stop / self.step * self.seconds
-    }
-}
 
 /// Axes across which a scene is its own mirror image, in the plane through the origin.
 #[must_use]

@@ -8,6 +8,7 @@ pub mod build;
 pub mod case;
 pub mod error;
 pub mod file;
+pub mod forecast;
 pub mod foresight;
 pub mod material;
 pub mod probes;
