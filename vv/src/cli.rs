@@ -267,6 +267,10 @@ struct SweepArgs {
     /// Runs at a time
     #[arg(long, default_value_t = 1, allow_hyphen_values = true, value_parser = whole(THREADS))]
     jobs: usize,
+    /// Finding that is drawn in sweep.svg and sweep.png over the first key with numbers (repeatable); without, the first four
+    /// that change
+    #[arg(long, value_name = "NAME")]
+    plot: Vec<String>,
     /// Write the scene files and print the commands of the runs, for a scheduler, without running them
     #[arg(long)]
     list: bool,

@@ -1,17 +1,21 @@
 //! `whipple sweep`: a scene file with other values, one process a run; `whipple limit`: where its condition begins to be met.
 
+mod draw;
+
 use std::collections::BTreeSet;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::sync::Mutex;
 
 use super::folder::RECORD;
 use super::{Failure, LimitArgs, NUMERICAL_FAILURE, SweepArgs, print, say};
 use crate::files::{ensure_writable_dir, write_atomic};
+use crate::plots::Figure;
 use crate::record::{Outcome, RunRecord};
 use crate::report::sig;
 use crate::scenes::case::FileCase;
+use crate::scenes::file::SceneFile;
 use crate::scenes::vary::{Key, combinations, vary};
 
 /// Name of the scene file of a run, beside its results.
@@ -47,6 +51,28 @@ impl Point<'_> {
             Err(_) => write_atomic(&path, own.as_bytes())?,
         }
         FileCase::read(&path).map(|_| ()).map_err(Failure::usage)
+    }
+
+    /// Copies the surfaces that a scene in this folder names beside its own scene file, so that the run can go elsewhere.
+    fn bring(&self, surfaces: &[PathBuf], from: &Path) -> Result<(), Failure> {
+        for surface in surfaces {
+            if surface.components().any(|part| part == Component::ParentDir) {
+                let message = format!(
+                    "{} is not in the folder of the scene or below: runs of a sweep take their surfaces with them",
+                    surface.display()
+                );
+                return Err(Failure::usage(message));
+            }
+            let (source, copy) = (from.join(surface), self.folder.join(surface));
+            let bytes = fs::read(&source).map_err(|error| {
+                Failure::usage(format!("{} cannot be read: {error}", source.display()))
+            })?;
+            if fs::read(&copy).ok().as_ref() != Some(&bytes) {
+                ensure_writable_dir(copy.parent().unwrap_or(&self.folder))?;
+                write_atomic(&copy, &bytes)?;
+            }
+        }
+        Ok(())
     }
 
     /// The command of its run.
@@ -90,6 +116,52 @@ fn text_of(path: &Path) -> Result<String, Failure> {
         .map_err(|error| Failure::usage(format!("{} cannot be read: {error}", path.display())))
 }
 
+/// Relative paths of the surfaces that a scene names, and its folder.
+fn surfaces<'a>(text: &str, scene: &'a Path) -> (Vec<PathBuf>, &'a Path) {
+    let file = toml::from_str::<SceneFile>(text);
+    let bodies = file.map(|file| file.body).unwrap_or_default();
+    let named = bodies
+        .iter()
+        .filter_map(|body| Some(PathBuf::from(body.get_ref().stl.as_ref()?.file.get_ref())));
+    (named.filter(|path| path.is_relative()).collect(), scene.parent().unwrap_or(Path::new("")))
+}
+
+/// Writes a figure, over one of the same name, and says where.
+fn write_figure(out: &Path, figure: &Figure) -> Result<(), Failure> {
+    for (name, bytes) in draw::files(figure)? {
+        let path = out.join(name);
+        write_atomic(&path, &bytes)?;
+        print(&format!("{}\n", path.display()))?;
+    }
+    Ok(())
+}
+
+/// The findings of all runs that have come to an end along the first key whose values are numbers of one unit.
+fn numbers(args: &SweepArgs, points: &[Point<'_>]) -> Option<draw::Sweep> {
+    let along = |k: &usize| -> Option<(String, Vec<f64>)> {
+        let values = points.iter().map(|point| split(point.changes[*k].1).ok());
+        let (numbers, units): (Vec<f64>, Vec<String>) =
+            values.collect::<Option<Vec<_>>>()?.into_iter().unzip();
+        let unit = units.first()?.clone();
+        let key = &args.vary[*k].key;
+        let label = if unit.is_empty() { key.to_string() } else { format!("{key}, {unit}") };
+        units.iter().all(|own| *own == unit).then_some((label, numbers))
+    };
+    let (axis, (key, places)) = (0..args.vary.len()).find_map(|k| Some((k, along(&k)?)))?;
+    let records: Vec<Option<RunRecord>> = points.iter().map(Point::record).collect();
+    let names: BTreeSet<&String> = records.iter().flatten().flat_map(|r| r.norms.keys()).collect();
+    let run = |((point, record), place): ((&Point<'_>, &Option<RunRecord>), f64)| {
+        let norms = &record.as_ref()?.norms;
+        let others = point.changes.iter().enumerate().filter(|(k, _)| *k != axis);
+        let others: Vec<String> =
+            others.map(|(_, (key, value))| format!("{key} = {value}")).collect();
+        let found = names.iter().map(|name| norms.get(*name).copied()).collect();
+        Some((place, others.join(", "), found))
+    };
+    let runs = points.iter().zip(&records).zip(places).filter_map(run).collect();
+    Some(draw::Sweep { key, runs, names: names.iter().map(|name| (*name).clone()).collect() })
+}
+
 /// Runs a scene with all combinations of values.
 pub(super) fn sweep(args: &SweepArgs) -> Result<u8, Failure> {
     let text = text_of(&args.scene)?;
@@ -98,7 +170,9 @@ pub(super) fn sweep(args: &SweepArgs) -> Result<u8, Failure> {
         .enumerate()
         .map(|(k, changes)| Point { folder: args.out.join(format!("{:03}", k + 1)), changes })
         .collect();
+    let (surfaces, from) = surfaces(&text, &args.scene);
     for point in &points {
+        point.bring(&surfaces, from)?;
         point.prepare(&text)?;
     }
     if args.list {
@@ -137,6 +211,9 @@ pub(super) fn sweep(args: &SweepArgs) -> Result<u8, Failure> {
     let table = args.out.join(TABLE);
     write_atomic(&table, rows(args, &points)?.as_bytes())?;
     print(&format!("{}\n", table.display()))?;
+    if let Some(figure) = numbers(args, &points).and_then(|found| draw::sweep(&found, &args.plot)) {
+        write_figure(&args.out, &figure)?;
+    }
     let failed = failed.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
     failed.into_iter().next().map_or(Ok(0), Err)
 }
@@ -188,15 +265,19 @@ pub(super) fn limit(args: &LimitArgs) -> Result<u8, Failure> {
             format!("--low is in `{unit}` and --high in `{other_unit}`: one unit for both");
         return Err(Failure::usage(message));
     }
-    let met = |value: f64| -> Result<bool, Failure> {
+    let (surfaces, from) = surfaces(&text, &args.scene);
+    let mut runs = Vec::new();
+    let mut met = |value: f64| -> Result<bool, Failure> {
         let said = format!("{value} {unit}");
         let said = said.trim();
         let folder = args.out.join(said.replace([' ', '/'], "_"));
         let point = Point { folder, changes: vec![(&args.key, said)] };
+        point.bring(&surfaces, from)?;
         point.prepare(&text)?;
         let record = point.run()?;
         let met = record.norms.contains_key("ended_at");
         say(&format!("{} = {said}: {}", args.key, if met { "met" } else { "not met" }));
+        runs.push((value, met));
         Ok(met)
     };
     let (mut low, mut high) = (number, other);
@@ -219,6 +300,12 @@ pub(super) fn limit(args: &LimitArgs) -> Result<u8, Failure> {
         sig(0.5 * (low + high), 6)
     );
     print(&out)?;
+    let row = |(value, met): &(f64, bool)| format!("{value},{unit},{met}\n");
+    let table = runs.iter().map(row).collect::<String>();
+    write_atomic(&args.out.join("limit.csv"), format!("value,unit,met\n{table}").as_bytes())?;
+    let label =
+        if unit.is_empty() { args.key.to_string() } else { format!("{}, {unit}", args.key) };
+    write_figure(&args.out, &draw::limit(&label, &runs, 0.5 * (low + high)))?;
     Ok(0)
 }
 

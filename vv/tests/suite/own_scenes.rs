@@ -228,7 +228,10 @@ fn sweeps_and_limits() {
         listed.out
     );
     let done = run(&[&sweep[..], &["--jobs", "2"]].concat());
-    assert_eq!((done.code, done.out.as_str()), (Some(0), "s/sweep.csv\n"), "{}", done.err);
+    let left = "s/sweep.csv\ns/sweep.svg\ns/sweep.png\n";
+    assert_eq!((done.code, done.out.as_str()), (Some(0), left), "{}", done.err);
+    let figure = fs::read_to_string(folder.path().join("s/sweep.svg")).expect("a figure");
+    assert!(figure.contains("body.flyer.velocity.2, m/s") && figure.contains("stop = 0.3 us"));
     let table = fs::read_to_string(folder.path().join("s/sweep.csv")).expect("a table");
     assert_eq!(table.lines().count(), 5);
     assert!(table.starts_with("run,body.flyer.velocity.2,stop,outcome,cpu_seconds,"), "{table}");
@@ -252,8 +255,12 @@ fn sweeps_and_limits() {
     let limit = run(&[&["limit", "slow.toml", "body.flyer.velocity.2"], &ends[..]].concat());
     assert_eq!(limit.code, Some(0), "{}", limit.err);
     assert!(limit.out.starts_with("body.flyer.velocity.2: met at "), "{}", limit.out);
-    let runs = fs::read_dir(folder.path().join("l")).expect("a folder").count();
-    assert_eq!(runs, 4);
+    let runs = fs::read_dir(folder.path().join("l")).expect("a folder");
+    assert_eq!(runs.filter(|run| run.as_ref().is_ok_and(|run| run.path().is_dir())).count(), 4);
+    let table = fs::read_to_string(folder.path().join("l/limit.csv")).expect("a table");
+    assert!(table.starts_with("value,unit,met\n100,m/s,"), "{table}");
+    assert_eq!(table.lines().count(), 5);
+    assert!(folder.path().join("l/limit.png").exists());
     let same = run(&[
         &["limit", "slow.toml", "body.flyer.velocity.2"],
         &["--low", "100 m/s", "--high", "110 m/s", "--out", "l"][..],
@@ -261,4 +268,36 @@ fn sweeps_and_limits() {
     .concat());
     assert_eq!(same.code, Some(2));
     assert!(same.err.contains("met at both ends"), "{}", same.err);
+}
+
+/// Runs of a sweep have the surfaces of their scene beside them, and surfaces from elsewhere are refused.
+#[test]
+fn sweeps_take_surfaces_with_them() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let corners = ["0 0 0", "4 0 0", "0 4 0", "0 0 4"];
+    let mut surface = "solid corner\n".to_owned();
+    for face in [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]] {
+        surface += "facet normal 0 0 0\nouter loop\n";
+        face.iter().for_each(|&k: &usize| surface += &format!("vertex {}\n", corners[k]));
+        surface += "endloop\nendfacet\n";
+    }
+    fs::create_dir(folder.path().join("parts")).expect("a folder");
+    fs::write(folder.path().join("parts/corner.stl"), surface + "endsolid corner\n")
+        .expect("written");
+    let scene = "stop = \"1 us\"\nresolution = { cell = \"0.5 mm\" }\n[[body]]\nname = \"a\"\nmaterial = \"copper\"\n\
+                 stl = { file = \"parts/corner.stl\", unit = \"1 mm\" }\n";
+    fs::write(folder.path().join("a.toml"), scene).expect("written");
+    let sweep = ["sweep", "a.toml", "--vary", "stop=1 us, 2 us", "--out", "s", "--list"];
+    let done = said(folder.path(), &sweep);
+    assert_eq!(done.code, Some(0), "{}", done.err);
+    assert!(folder.path().join("s/002/parts/corner.stl").exists());
+    fs::create_dir(folder.path().join("b")).expect("a folder");
+    let above = scene.replace("parts/", "../parts/");
+    fs::write(folder.path().join("b/b.toml"), above).expect("written");
+    let done = said(
+        &folder.path().join("b"),
+        &["sweep", "b.toml", "--vary", "stop=1 us", "--out", "s", "--list"],
+    );
+    assert_eq!(done.code, Some(2));
+    assert!(done.err.contains("take their surfaces with them"), "{}", done.err);
 }
