@@ -3,6 +3,7 @@
 
 use std::fmt::Write as _;
 use std::path::Path;
+use std::time::Instant;
 
 use whipple_solver::space::Simulation;
 use whipple_solver::space::scene::Scene;
@@ -12,7 +13,7 @@ use super::sizes::expect;
 use super::{CheckArgs, Failure, NewArgs, print, say};
 use crate::cases::Case;
 use crate::files::{ensure_writable_dir, write_atomic};
-use crate::memory::{Keeps, Need, bytes_text};
+use crate::memory::{Keeps, Need, bytes_text, peak};
 use crate::report::sig;
 use crate::scenes::case::FileCase;
 use crate::scenes::forecast::{Basis, Forecast};
@@ -48,8 +49,15 @@ pub(super) fn check(args: &CheckArgs) -> Result<u8, Failure> {
     bodies(&mut out, scene, &simulation);
     whole(&mut out, scene, &simulation);
     advice(&mut out, scene, &simulation);
+    // A run draws the same: what that takes belongs to its time and its memory.
+    let begun = Instant::now();
+    let drawn = if case.pictures() > 0 || args.out.is_some() {
+        case.preview(&simulation, scene).map_err(Failure::usage)?
+    } else {
+        Vec::new()
+    };
+    let drawing = begun.elapsed().as_secs_f64() * case.pictures() as f64;
     if let Some(folder) = &args.out {
-        let drawn = case.preview(&simulation, scene).map_err(Failure::usage)?;
         ensure_writable_dir(folder)?;
         for (name, [light, dark]) in drawn {
             write_atomic(&folder.join(format!("{name}.png")), &light)?;
@@ -57,9 +65,12 @@ pub(super) fn check(args: &CheckArgs) -> Result<u8, Failure> {
         }
         let _ = writeln!(out, "pictures: {}", folder.display());
     }
-    let memory = Need::of(&any, Keeps::default());
-    let _ = writeln!(out, "memory: {}", bytes_text(memory.bytes));
-    pace(&mut out, (&case, n), scene, &simulation);
+    let own = Need::of(&any, Keeps::default()).bytes;
+    let kept = Need::of(&any, Keeps { folder: true, ..Keeps::default() }).bytes.saturating_sub(own);
+    let program = peak().map_or(own, |peak| peak.max(own)) + kept;
+    let [own, program] = [own, program].map(bytes_text);
+    let _ = writeln!(out, "memory: {program}, of which the state is {own}");
+    pace(&mut out, (&case, n), (scene, drawing), &simulation);
     print(&out)?;
     Ok(0)
 }
@@ -147,7 +158,12 @@ fn advice(out: &mut String, scene: &Scene, simulation: &Simulation) {
     }
 }
 
-fn pace(out: &mut String, (case, n): (&FileCase, usize), scene: &Scene, start: &Simulation) {
+fn pace(
+    out: &mut String,
+    (case, n): (&FileCase, usize),
+    (scene, drawing): (&Scene, f64),
+    start: &Simulation,
+) {
     let unit = scene.units.label(Dimension::Time);
     let stop = scene.stop_time;
     match Forecast::of(case, n, start, stop) {
@@ -162,11 +178,12 @@ fn pace(out: &mut String, (case, n): (&FileCase, usize), scene: &Scene, start: &
             };
             let _ = writeln!(
                 out,
-                "first step {} {unit}; about {} steps of {} {unit}, {} on one thread of this machine: {by}",
+                "first step {} {unit}; about {} steps of {} {unit}, {} on one thread of this machine: {by}; {} of that for pictures",
                 sig(pace.first, 3),
                 sig(stop / pace.step, 2),
                 sig(pace.step, 3),
-                clock(seconds)
+                clock(seconds + drawing),
+                clock(drawing)
             );
         }
         Err(error) => {

@@ -200,6 +200,12 @@ impl FileCase {
         Ok(())
     }
 
+    /// How many times a run draws [`FileCase::preview`].
+    #[must_use]
+    pub fn pictures(&self) -> usize {
+        self.pictures.len()
+    }
+
     /// Pictures of a state by their names, for light and for dark pages.
     ///
     /// # Errors

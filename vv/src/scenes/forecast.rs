@@ -18,8 +18,8 @@ const STEPS: [u64; 2] = [400, 5];
 /// Seconds below which a run is foreseen by running it, and what a coarser copy may be told to take.
 const SHORT: f64 = 2.5;
 
-/// Longest time that a run is waited for.
-const PATIENCE: Duration = Duration::from_secs(6);
+/// Longest time that a run is waited for: debris takes coarser copies longer than told.
+const PATIENCE: Duration = Duration::from_secs(20);
 
 /// Power of the number of cells across with which the time of a run grows: cells in space, and steps.
 const GROWTH: i32 = 4;
