@@ -10,6 +10,7 @@ use std::sync::Mutex;
 
 use super::folder::RECORD;
 use super::{Failure, LimitArgs, NUMERICAL_FAILURE, SweepArgs, print, say};
+use crate::cases::Case;
 use crate::files::{ensure_writable_dir, write_atomic};
 use crate::plots::Figure;
 use crate::record::{Outcome, RunRecord};
@@ -159,7 +160,12 @@ fn numbers(args: &SweepArgs, points: &[Point<'_>]) -> Option<draw::Sweep> {
         Some((place, others.join(", "), found))
     };
     let runs = points.iter().zip(&records).zip(places).filter_map(run).collect();
-    Some(draw::Sweep { key, runs, names: names.iter().map(|name| (*name).clone()).collect() })
+    let case = FileCase::read(&args.scene).ok()?;
+    let title = |name: &&String| {
+        let known = case.tabulated().iter().find(|(own, _)| own == *name);
+        [(*name).clone(), known.map_or_else(|| (*name).clone(), |(_, title)| (*title).to_owned())]
+    };
+    Some(draw::Sweep { key, runs, names: names.iter().map(title).collect() })
 }
 
 /// Runs a scene with all combinations of values.

@@ -232,6 +232,7 @@ fn sweeps_and_limits() {
     assert_eq!((done.code, done.out.as_str()), (Some(0), left), "{}", done.err);
     let figure = fs::read_to_string(folder.path().join("s/sweep.svg")).expect("a figure");
     assert!(figure.contains("body.flyer.velocity.2, m/s") && figure.contains("stop = 0.3 us"));
+    assert!(figure.contains("speed of flyer, cm/µs"));
     let table = fs::read_to_string(folder.path().join("s/sweep.csv")).expect("a table");
     assert_eq!(table.lines().count(), 5);
     assert!(table.starts_with("run,body.flyer.velocity.2,stop,outcome,cpu_seconds,"), "{table}");

@@ -18,8 +18,8 @@ pub(super) struct Sweep {
     pub key: String,
     /// Of each run its place along the key, what the other keys are, and its findings in the order of `names`.
     pub runs: Vec<(f64, String, Vec<Option<f64>>)>,
-    /// Names of the findings.
-    pub names: Vec<String>,
+    /// Names of the findings, and what they are with their units.
+    pub names: Vec<[String; 2]>,
 }
 
 /// The figure of a sweep: of these findings, or of the first that change over it. None where nothing does.
@@ -34,7 +34,7 @@ pub(super) fn sweep(sweep: &Sweep, wanted: &[String]) -> Option<Figure> {
     let chosen: Vec<usize> = if wanted.is_empty() {
         all.filter(changes).take(PANELS).collect()
     } else {
-        all.filter(|&k| wanted.contains(&sweep.names[k])).take(PANELS).collect()
+        all.filter(|&k| wanted.contains(&sweep.names[k][0])).take(PANELS).collect()
     };
     let mut lines: Vec<&String> = sweep.runs.iter().map(|run| &run.1).collect();
     lines.sort();
@@ -42,7 +42,7 @@ pub(super) fn sweep(sweep: &Sweep, wanted: &[String]) -> Option<Figure> {
     let panels: Vec<Panel> = chosen
         .into_iter()
         .map(|k| {
-            let panel = Panel::new("", Axis::linear(&sweep.key), Axis::linear(&sweep.names[k]));
+            let panel = Panel::new("", Axis::linear(&sweep.key), Axis::linear(&sweep.names[k][1]));
             lines.iter().fold(panel, |panel, &line| {
                 let own = sweep.runs.iter().filter(|run| run.1 == *line);
                 let mut points: Vec<(f64, f64)> =
